@@ -1,0 +1,22 @@
+/// Two kinds of failure a user can meet; a broken invariant inside the program is an assert, not one of these.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace rhexis {
+
+/// The user's input is wrong: exit status 2, nothing written. `key` names the input key at fault (empty where
+/// none is); the door in `input/` adds file, line and value to the message.
+struct InputError : std::runtime_error {
+  explicit InputError(const std::string& message, std::string at_key = {})
+      : std::runtime_error(message), key(std::move(at_key)) {}
+  std::string key;
+};
+
+/// The run failed (unstable, disk full, a script that raised): exit status 3, what was saved stays readable.
+struct RunError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace rhexis

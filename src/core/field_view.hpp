@@ -1,0 +1,63 @@
+/// Fields as observers see them: name, unit, components and borrowed memory; no physics.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rhexis {
+
+/// What a field is, before anybody pays for its values.
+struct FieldInfo {
+  std::string_view name;  ///< as in files and pictures, e.g. "displacement"
+  std::string_view unit;  ///< SI, UDUNITS spelling, e.g. "m"; "1" for a ratio
+  int components = 1;     ///< 1 (scalar) or 3 (vector)
+};
+
+/// Borrowed values of a field on this rank's points: `components` arrays of `count` doubles each (structure of
+/// arrays), contiguous, in the order of the rank's points. Valid until the source advances.
+struct FieldView {
+  FieldInfo info;
+  std::array<const double*, 3> component{};
+  std::size_t count = 0;
+};
+
+/// Where this rank's points lie in the global, partition-independent numbering id = column * rows + row:
+/// the block of columns [first_column, first_column + column_count) x rows [first_row, first_row + row_count),
+/// stored column by column.
+struct PointLayout {
+  std::int64_t columns = 0, rows = 0;  ///< of the whole body
+  std::int64_t first_column = 0, column_count = 0;
+  std::int64_t first_row = 0, row_count = 0;
+
+  std::int64_t global_count() const { return columns * rows; }
+  std::int64_t local_count() const { return column_count * row_count; }
+};
+
+/// A number that goes with a moment: shown in pictures, stored with the step.
+struct Annotation {
+  std::string_view name;  ///< e.g. "pressure"
+  std::string_view unit;  ///< e.g. "Pa"
+  double value = 0;
+};
+
+/// A body at one moment, offered to observers (HDF5, Catalyst). Fields are computed when first asked for at
+/// this moment and kept until the next; asking is local to a rank.
+class PointSource {
+ public:
+  virtual ~PointSource() = default;
+  virtual long step() const = 0;
+  virtual double time_s() const = 0;
+  virtual const PointLayout& layout() const = 0;
+  virtual std::span<const FieldInfo> fields() const = 0;
+  /// Deformed positions, named "position", unit m, three components.
+  virtual FieldView positions() = 0;
+  /// A field by its name; throws std::out_of_range for a name that `fields()` does not list.
+  virtual FieldView field(std::string_view name) = 0;
+  virtual std::vector<Annotation> annotations() const = 0;
+};
+
+}  // namespace rhexis

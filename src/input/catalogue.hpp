@@ -1,0 +1,30 @@
+/// Looking up keys and sections in the declarations, and guessing the one that a user meant.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/parameter.hpp"
+
+namespace rhexis::input {
+
+/// "vessel" of "vessel.length"; empty where there is no dot.
+std::string section_of(std::string_view key);
+
+/// "length" of "vessel.length"; all of it where there is no dot.
+std::string name_of(std::string_view key);
+
+/// The sections in the order of their first declaration.
+std::vector<std::string> sections_of(const ParameterList& parameters);
+
+/// @throws InputError where `section` is none, with the list of sections.
+void check_section(const ParameterList& parameters, std::string_view section);
+
+const Parameter* find(const ParameterList& parameters, std::string_view key);
+
+/// The key that `unknown` was probably meant to be: the same name in another section, or a similar one.
+std::optional<std::string> similar_key(const ParameterList& parameters, std::string_view unknown);
+
+}  // namespace rhexis::input

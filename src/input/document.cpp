@@ -1,0 +1,206 @@
+#include "input/document.hpp"
+
+#include <fmt/format.h>
+
+// Errors come back as values: they are reworded here.
+#define TOML_EXCEPTIONS 0
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <tuple>
+
+#include "core/error.hpp"
+#include "input/wording.hpp"
+
+namespace rhexis::input {
+namespace {
+
+constexpr std::string_view accepted_types =
+    "a number, a text in quotes, true or false, or a list of these (no dates, times or tables)";
+
+/// The value of a node, or none for a type that no key takes.
+std::optional<Value> to_value(const toml::node& node) {
+  if (const auto* text = node.as_string()) return Value{text->get()};
+  if (const auto* whole = node.as_integer()) return Value{whole->get()};
+  if (const auto* real = node.as_floating_point()) return Value{real->get()};
+  if (const auto* flag = node.as_boolean()) return Value{flag->get()};
+  if (const auto* array = node.as_array()) {
+    List list;
+    for (const toml::node& element : *array) {
+      auto value = to_value(element);
+      if (!value) return std::nullopt;
+      list.push_back(std::move(*value));
+    }
+    return Value{std::move(list)};
+  }
+  return std::nullopt;
+}
+
+/// toml++'s description of an error, without what the position says better.
+std::string reason(const toml::parse_error& error) {
+  const std::string text(error.description());
+  if (text.find("utf-8") != std::string::npos) return "the file is not UTF-8 text";
+  const auto detail = text.find(": ");
+  const std::string brief = text.starts_with("Error while parsing ") && detail != std::string::npos
+                                ? text.substr(detail + 2)
+                                : text;
+  if (brief.starts_with("cannot redefine"))
+    return fmt::format("defined twice: {}; each section and each key may appear once", brief);
+  return fmt::format("not valid TOML: {}; a text, or a number with a unit, goes in quotes, as in \"1.5 mm\"",
+                     brief);
+}
+
+/// Flattens the tables of a file into sections and entries.
+class Flattener {
+ public:
+  explicit Flattener(Document& document) : document_(document) {}
+
+  void add(const toml::table& root) {
+    for (const auto& [key, node] : root) {
+      const std::string name(key.str());
+      check_name(name, key);
+      if (node.is_array_of_tables())
+        fail(key, fmt::format("[[{0}]] is a list of sections; write [{0}], once", name));
+      const auto* section = node.as_table();
+      if (!section) {
+        add_entry(name, key, node);
+        continue;
+      }
+      document_.sections.push_back({name, static_cast<int>(key.source().begin.line)});
+      for (const auto& [inner_key, inner_node] : *section) {
+        check_name(std::string(inner_key.str()), inner_key);
+        add_entry(fmt::format("{}.{}", name, inner_key.str()), inner_key, inner_node);
+      }
+    }
+    std::ranges::sort(document_.sections, {}, &Section::line);
+    std::ranges::sort(document_.entries, {}, [](const Entry& e) { return std::tuple(e.line, e.column); });
+  }
+
+ private:
+  [[noreturn]] void fail(const toml::key& key, const std::string& problem) const {
+    throw InputError(fmt::format("{}:{}: {}", document_.file, key.source().begin.line, problem));
+  }
+
+  /// A dot inside a quoted name would make "section.name" ambiguous.
+  void check_name(const std::string& name, const toml::key& key) const {
+    if (name.find('.') != std::string::npos)
+      fail(key, fmt::format("the name {} has a dot in quotes; write [section] and below it name = value",
+                            in_quotes(name)));
+  }
+
+  void add_entry(std::string name, const toml::key& key, const toml::node& node) {
+    if (node.is_table() || node.is_array_of_tables())
+      fail(key, fmt::format("unexpected table '{}': keys are section.name and no deeper", name));
+    auto value = to_value(node);
+    if (!value) fail(key, fmt::format("{} has a type that no key takes; write {}", name, accepted_types));
+    const auto begin = key.source().begin;
+    document_.entries.push_back({std::move(name),
+                                 std::move(*value),
+                                 static_cast<int>(begin.line),
+                                 static_cast<int>(begin.column),
+                                 {}});
+  }
+
+  Document& document_;
+};
+
+void apply_override(Document& document, const std::string& argument) {
+  const std::string place = "--set " + shortened(argument);
+  const auto equals = argument.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(place + ": write --set section.name=value, for example --set \"vessel.length=20 mm\"");
+  Entry entry{.key = argument.substr(0, equals), .value = {}, .argument = argument};
+  entry.key.erase(entry.key.find_last_not_of(' ') + 1);
+  try {
+    entry.value = parse_value(std::string_view(argument).substr(equals + 1));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place, error.what()), entry.key);
+  }
+  const auto same = std::ranges::find(document.entries, entry.key, &Entry::key);
+  if (same == document.entries.end())
+    document.entries.push_back(std::move(entry));
+  else
+    *same = std::move(entry);
+}
+
+struct Writer {
+  std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+  std::string operator()(std::int64_t whole) const { return fmt::format("{}", whole); }
+  std::string operator()(double real) const { return fmt::format("{}", real); }
+  std::string operator()(const std::string& text) const { return in_quotes(text); }
+  std::string operator()(const List& list) const {
+    std::string elements;
+    for (const Value& element : list) {
+      if (!elements.empty()) elements += ", ";
+      elements += written(element);
+    }
+    return fmt::format("[{}]", elements);
+  }
+};
+
+}  // namespace
+
+std::string written(const Value& value) {
+  return std::visit(Writer{}, value.content);
+}
+
+std::string Document::place(const Entry& entry) const {
+  if (!entry.from_file()) return "--set " + shortened(entry.argument);
+  return fmt::format("{}:{}: {} = {}", file, entry.line, entry.key, shortened(written(entry.value)));
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  const auto fail = [&file](std::string_view problem) {
+    throw InputError(fmt::format("{}: {}", file.string(), problem));
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) fail("this is a folder; give an input file (TOML)");
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail(fmt::format("cannot be opened: {}", std::strerror(errno)));
+  constexpr std::size_t most = 16 << 20;  // inputs are a few kilobytes; a curve with many points may be more
+  std::string text(most + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) fail("cannot be read");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > most) fail("is larger than 16 MiB, too large for an input file (TOML)");
+  return text;
+}
+
+Document parse_document(std::string_view text, std::string file, std::span<const std::string> overrides) {
+  Document document{.file = std::move(file), .sections = {}, .entries = {}};
+  const toml::parse_result result = toml::parse(text);
+  if (!result) {
+    const auto at = result.error().source().begin;
+    throw InputError(fmt::format("{}:{}:{}: {}", document.file, at.line, at.column, reason(result.error())));
+  }
+  Flattener(document).add(result.table());
+  for (const std::string& argument : overrides) apply_override(document, argument);
+  return document;
+}
+
+Value parse_value(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t");
+  if (first == std::string_view::npos) throw InputError("a value is missing");
+  text = text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  const toml::parse_result result = toml::parse(fmt::format("value = {}", text));
+  const bool one_value = result && result.table().size() == 1;
+  if (one_value)
+    if (auto value = to_value(*result.table().get("value"))) return *value;
+  if (std::string_view("[{\"'").find(text.front()) != std::string_view::npos)
+    throw InputError(
+        fmt::format("not a valid value; write {}. The shell takes quotes away: put single quotes "
+                    "around it all, as in --set 'section.name=[\"a\", \"b\"]'",
+                    accepted_types));
+  constexpr std::string_view replacement_character =
+      "\xEF\xBF\xBD";  // what in_quotes() puts for invalid bytes
+  if (in_quotes(text).find(replacement_character) != std::string::npos)
+    throw InputError("the value is not UTF-8 text");
+  return Value{std::string(text)};
+}
+
+}  // namespace rhexis::input

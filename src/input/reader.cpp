@@ -1,0 +1,138 @@
+#include "input/reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "input/catalogue.hpp"
+#include "input/description.hpp"
+#include "input/units.hpp"
+#include "input/values.hpp"
+#include "input/wording.hpp"
+
+namespace rhexis::input {
+namespace {
+
+void check_sections(const Document& document, const ParameterList& parameters) {
+  for (const Section& section : document.sections) {
+    try {
+      check_section(parameters, section.name);
+    } catch (const InputError& error) {
+      throw InputError(
+          fmt::format("{}:{}: [{}]: {}", document.file, section.line, section.name, error.what()));
+    }
+  }
+}
+
+[[noreturn]] void refuse_unknown(const Document& document, const Entry& entry,
+                                 const ParameterList& parameters) {
+  const std::string section = section_of(entry.key);
+  const auto sections = sections_of(parameters);
+  const bool known_section = std::ranges::find(sections, section) != sections.end();
+  const std::string problem =
+      section.empty() ? "a key stands in a section, as in section.name" : "there is no such key";
+  const std::string help = known_section
+                               ? fmt::format("'rhexis keys {}' lists the keys of this section", section)
+                               : fmt::format("sections: {}", fmt::join(sections, ", "));
+  throw InputError(fmt::format("{}: {}{} ({})", document.place(entry), problem,
+                               did_you_mean(similar_key(parameters, entry.key)), help),
+                   entry.key);
+}
+
+[[noreturn]] void refuse_missing(const Document& document, const Parameter& parameter) {
+  const std::string allowed = describe_allowed(parameter);
+  throw InputError(fmt::format("{}: {} is missing; under [{}] write for example {} = {} ({}{}). It is: {}",
+                               document.file, parameter.key, section_of(parameter.key),
+                               name_of(parameter.key), example(parameter), describe_type(parameter),
+                               allowed.empty() ? "" : "; allowed: " + allowed, parameter.meaning),
+                   parameter.key);
+}
+
+SiValue stored(const Parameter& parameter) {
+  return std::visit(
+      [](const auto* target) -> SiValue {
+        using T = std::remove_cvref_t<decltype(*target)>;
+        if constexpr (requires { target->has_value(); }) {
+          if (!target->has_value()) return std::monostate{};
+          return SiValue(std::in_place_type<typename T::value_type>, **target);
+        } else {
+          return SiValue(std::in_place_type<T>, *target);
+        }
+      },
+      parameter.target);
+}
+
+/// Stores the value and records it; a problem is thrown with `place` in front.
+ResolvedValue resolve(const Parameter& parameter, const Value& value, std::string origin, std::string place) {
+  try {
+    store(value, parameter);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", place, error.what()), parameter.key);
+  }
+  return {.key = parameter.key,
+          .given = value,
+          .value = stored(parameter),
+          .unit = parameter.unit,
+          .origin = std::move(origin),
+          .place = std::move(place)};
+}
+
+ResolvedValue resolve_default(const Document& document, const Parameter& parameter) {
+  if (!parameter.default_text) refuse_missing(document, parameter);
+  const Value value = parse_value(*parameter.default_text);
+  return resolve(parameter, value, "default",
+                 fmt::format("{}: {} (default {})", document.file, parameter.key, shortened(written(value))));
+}
+
+struct ToJson {
+  nlohmann::ordered_json operator()(std::monostate) const { return nullptr; }
+  nlohmann::ordered_json operator()(const List& list) const {
+    auto json = nlohmann::ordered_json::array();
+    for (const Value& element : list) json.push_back(std::visit(*this, element.content));
+    return json;
+  }
+  nlohmann::ordered_json operator()(const auto& held) const { return held; }
+};
+
+}  // namespace
+
+Resolved read(const Document& document, const ParameterList& parameters) {
+  check_sections(document, parameters);
+  std::vector<ResolvedValue> given;
+  for (const Entry& entry : document.entries) {
+    const Parameter* parameter = find(parameters, entry.key);
+    if (!parameter) refuse_unknown(document, entry, parameters);
+    given.push_back(
+        resolve(*parameter, entry.value, entry.from_file() ? "file" : "--set", document.place(entry)));
+  }
+  Resolved resolved{.file = document.file, .values = {}};
+  for (const Parameter& parameter : parameters) {
+    const auto found = std::ranges::find(given, parameter.key, &ResolvedValue::key);
+    resolved.values.push_back(found != given.end() ? std::move(*found)
+                                                   : resolve_default(document, parameter));
+  }
+  return resolved;
+}
+
+InputError located(const InputError& error, const Resolved& resolved) {
+  const auto value = std::ranges::find(resolved.values, error.key, &ResolvedValue::key);
+  std::string place = resolved.file;
+  if (value != resolved.values.end())
+    place = value->place;
+  else if (!error.key.empty())
+    place += ": " + error.key;
+  return InputError(fmt::format("{}: {}", place, error.what()), error.key);
+}
+
+nlohmann::ordered_json to_json(const Resolved& resolved) {
+  auto json = nlohmann::ordered_json::object();
+  for (const ResolvedValue& value : resolved.values)
+    json[section_of(value.key)][name_of(value.key)] = {{"written", std::visit(ToJson{}, value.given.content)},
+                                                       {"value", std::visit(ToJson{}, value.value)},
+                                                       {"unit", value.unit},
+                                                       {"origin", value.origin}};
+  return json;
+}
+
+}  // namespace rhexis::input

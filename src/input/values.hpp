@@ -1,0 +1,13 @@
+/// One value of the input, checked against its declaration and put into its typed home.
+#pragma once
+
+#include "core/parameter.hpp"
+#include "input/document.hpp"
+
+namespace rhexis::input {
+
+/// Converts `value` to SI, checks type, unit, range and choices, and stores it in parameter.target.
+/// @throws InputError whose message is the problem alone, without place, key and value.
+void store(const Value& value, const Parameter& parameter);
+
+}  // namespace rhexis::input

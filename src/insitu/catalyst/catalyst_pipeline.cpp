@@ -1,0 +1,177 @@
+#include "insitu/catalyst/catalyst_pipeline.hpp"
+
+#include <vtkCLIOptions.h>
+#include <vtkMPI.h>
+#include <vtkPVVersion.h>
+#include <vtkProcessModule.h>
+#include <vtkRemotingCoreConfiguration.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "insitu/window/headless_window.hpp"
+
+namespace rhexis::insitu {
+namespace {
+
+/// Chooses who draws and says who it is; throws NotAvailable if that cannot be had.
+std::string start_renderer(Renderer wanted) {
+  if (wanted == Renderer::automatic || wanted == Renderer::osmesa) {
+    const std::string name = use_headless_windows(Headless::osmesa);
+    if (!name.empty()) return "OSMesa (" + name + ")";
+  }
+  if (wanted == Renderer::automatic || wanted == Renderer::egl) {
+    const std::string name = use_headless_windows(Headless::egl);
+    if (!name.empty()) return "EGL (" + name + ")";
+  }
+  const char* display = std::getenv("DISPLAY");
+  const bool has_display = display != nullptr && *display != '\0';
+  if ((wanted == Renderer::automatic || wanted == Renderer::x11) && has_display) return "X11";
+  switch (wanted) {
+    case Renderer::osmesa:
+      throw NotAvailable("not available: OSMesa gives no OpenGL 3.2 (Debian: libosmesa6)");
+    case Renderer::egl:
+      throw NotAvailable("not available: EGL gives no OpenGL 3.2 without a display (Debian: libegl1)");
+    case Renderer::x11:
+      throw NotAvailable("not available: X11 needs the environment variable DISPLAY");
+    case Renderer::automatic:
+      break;
+  }
+  throw NotAvailable("not available: neither OSMesa nor EGL nor an X display (Debian: libosmesa6)");
+}
+
+/// Keeps ParaView from looking for an X display, which ends the program on all ranks but the first.
+void disable_display_test() {
+  vtkNew<vtkCLIOptions> options;
+  auto* configuration = vtkRemotingCoreConfiguration::GetInstance();
+  configuration->PopulateRenderingOptions(options, vtkProcessModule::PROCESS_BATCH);
+  char program[] = "rhexis", option[] = "--disable-xdisplay-test";
+  char* arguments[] = {program, option, nullptr};
+  char** argv = arguments;
+  int argc = 2;
+  options->Parse(argc, argv);
+}
+
+/// Rendering by the processor takes as many threads as the solver, not all cores on every rank; and lending
+/// memory in structure-of-arrays layout is meant, though some filters copy it.
+void set_environment_defaults() {
+  setenv("LP_NUM_THREADS", std::to_string(parallel::thread_count()).c_str(), /*overwrite=*/0);
+  setenv("VTK_SILENCE_GET_VOID_POINTER_WARNINGS", "1", /*overwrite=*/0);
+}
+
+/// What `action` throws, as text.
+template <class Action>
+std::string failure_of(Action action) {
+  try {
+    action();
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+CatalystPipeline::CatalystPipeline(const Settings& settings, parallel::Communicator communicator)
+    : paraview_communicator_(communicator),
+      agreement_communicator_(communicator),
+      agreement_(parallel::Communicator(agreement_communicator_.handle())) {
+  set_environment_defaults();
+  const std::string no_renderer = agreement_.agree(failure_of([&] {
+    const std::string renderer = start_renderer(settings.renderer);
+    description_ = std::string("ParaView Catalyst ") + PARAVIEW_VERSION_FULL + ", " + renderer;
+  }));
+  if (!no_renderer.empty()) throw NotAvailable(no_renderer);
+  start_paraview();
+  agreement_.agree(failure_of([&] {
+    std::filesystem::create_directories(settings.image_directory);
+    guard_.emplace(agreement_, std::filesystem::absolute(settings.image_directory).string());
+    add_scripts(settings);
+  }));
+  grid_.emplace();
+  if (!agreement_.failure().empty()) finish();
+  throw_if_failed();
+}
+
+CatalystPipeline::~CatalystPipeline() { CatalystPipeline::finish(); }
+
+void CatalystPipeline::start_paraview() {
+  disable_display_test();
+  processor_ = vtkSmartPointer<vtkCPProcessor>::New();
+  vtkMPICommunicatorOpaqueComm opaque(&paraview_communicator_.handle());
+  processor_->Initialize(opaque);
+}
+
+void CatalystPipeline::add_scripts(const Settings& settings) {
+  for (const std::string& path : settings.scripts) {
+    auto fields = guard_->declared_fields(path);
+    scripts_.push_back(std::make_unique<CatalystScript>(path, std::move(fields)));
+  }
+}
+
+std::vector<CatalystScript*> CatalystPipeline::scripts_wanting(long step, double time_s) {
+  std::vector<CatalystScript*> wanting;
+  for (const auto& script : scripts_) {
+    if (script->wants(step, time_s)) wanting.push_back(script.get());
+    throw_if_failed();
+  }
+  return wanting;
+}
+
+bool CatalystPipeline::wants(long step, double time_s) { return !scripts_wanting(step, time_s).empty(); }
+
+std::vector<std::string> CatalystPipeline::needed_fields(const PointSource& source,
+                                                         const std::vector<CatalystScript*>& scripts) const {
+  std::vector<std::string> available;
+  std::string list;
+  for (const FieldInfo& field : source.fields()) {
+    available.emplace_back(field.name);
+    list += (list.empty() ? "" : ", ") + available.back();
+  }
+  std::vector<std::string> needed;
+  for (const CatalystScript* script : scripts) {
+    for (const std::string& name : script->fields().value_or(available)) {
+      if (std::ranges::find(available, name) == available.end()) {
+        throw RunError("Catalyst script " + script->path() + " asks for the field '" + name + "'; there are: " + list);
+      }
+      if (std::ranges::find(needed, name) == needed.end()) needed.push_back(name);
+    }
+  }
+  return needed;
+}
+
+void CatalystPipeline::process(PointSource& source) {
+  const auto scripts = scripts_wanting(source.step(), source.time_s());
+  if (scripts.empty()) return;
+  vtkPolyData* grid = nullptr;
+  agreement_.agree(failure_of([&] { grid = grid_->lend(source, needed_fields(source, scripts)); }));
+  for (CatalystScript* script : scripts) {
+    if (!agreement_.failure().empty()) break;
+    script->run(grid, source.step(), source.time_s());
+    agreement_.agree(guard_->take_noted());
+  }
+  grid_->release();
+  throw_if_failed();
+}
+
+void CatalystPipeline::finish() {
+  if (processor_ == nullptr) return;
+  for (const auto& script : scripts_) script->finish();
+  scripts_.clear();
+  if (guard_) guard_->forget_scripts();
+  grid_.reset();
+  processor_->Finalize();
+  processor_ = nullptr;
+}
+
+void CatalystPipeline::throw_if_failed() const {
+  if (!agreement_.failure().empty()) throw RunError(agreement_.failure());
+}
+
+}  // namespace rhexis::insitu
+
+extern "C" [[gnu::visibility("default")]] rhexis::insitu::Pipeline* rhexis_create_pipeline(
+    const rhexis::insitu::Settings& settings, rhexis::parallel::Communicator communicator) {
+  return new rhexis::insitu::CatalystPipeline(settings, communicator);
+}

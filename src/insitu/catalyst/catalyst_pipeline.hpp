@@ -1,0 +1,62 @@
+/// The plugin's Pipeline: ParaView's set-up and end, and one round of scripts per step.
+#pragma once
+
+#include <vtkCPProcessor.h>
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "insitu/catalyst/agreement.hpp"
+#include "insitu/catalyst/catalyst_script.hpp"
+#include "insitu/catalyst/particle_grid.hpp"
+#include "insitu/catalyst/script_guard.hpp"
+#include "insitu/pipeline.hpp"
+
+namespace rhexis::insitu {
+
+/// A communicator of our own, so that ParaView's messages never meet the solver's.
+class OwnCommunicator {
+ public:
+  explicit OwnCommunicator(parallel::Communicator original) { MPI_Comm_dup(original.handle(), &handle_); }
+  OwnCommunicator(const OwnCommunicator&) = delete;
+  OwnCommunicator& operator=(const OwnCommunicator&) = delete;
+  ~OwnCommunicator() { MPI_Comm_free(&handle_); }
+  MPI_Comm& handle() { return handle_; }
+
+ private:
+  MPI_Comm handle_ = MPI_COMM_NULL;
+};
+
+class CatalystPipeline : public Pipeline {
+ public:
+  CatalystPipeline(const Settings& settings, parallel::Communicator communicator);
+  ~CatalystPipeline() override;
+
+  std::string description() const override { return description_; }
+  bool wants(long step, double time_s) override;
+  void process(PointSource& source) override;
+  void finish() override;
+
+ private:
+  void start_paraview();
+  void add_scripts(const Settings& settings);
+  std::vector<std::string> needed_fields(const PointSource& source,
+                                         const std::vector<CatalystScript*>& scripts) const;
+  std::vector<CatalystScript*> scripts_wanting(long step, double time_s);
+  void throw_if_failed() const;
+
+  // In this order: what stands first goes last.
+  OwnCommunicator paraview_communicator_;
+  OwnCommunicator agreement_communicator_;
+  Agreement agreement_;
+  std::string description_;
+  vtkSmartPointer<vtkCPProcessor> processor_;
+  std::optional<ScriptGuard> guard_;
+  std::optional<ParticleGrid> grid_;
+  std::vector<std::unique_ptr<CatalystScript>> scripts_;
+};
+
+}  // namespace rhexis::insitu

@@ -1,0 +1,125 @@
+"""Lives inside the plugin (embedded at build time): what stands between ParaView and the users' scripts.
+
+ParaView prints a script's exception and goes on, on that rank alone; the other ranks then wait for it for ever.
+So every call into a script is followed by `agree` (given by C++: the first non-empty text of all ranks),
+and what one rank raised ends the call on all. Exceptions inside filters of a pipeline are noted by `note_exception`.
+"""
+
+import ast
+import gc
+import os
+import sys
+import traceback
+
+from paraview.catalyst import importers, v2_internals
+
+image_directory = ""  # set by C++
+scripts = {}  # module name -> path
+noted = ""  # of this rank: the first exception that ParaView swallowed
+
+
+class ScriptFailed(Exception):
+    """All ranks know already: ParaView should stop here and print nothing."""
+
+
+def describe(error, trace):
+    """One line: script, line number and what Python says of the exception."""
+    reason = traceback.format_exception_only(type(error), error)[-1].strip()
+    if isinstance(error, SyntaxError):
+        return f"Catalyst script {error.filename}, line {error.lineno}: {reason}"
+    frames = [frame for frame in traceback.extract_tb(trace) if os.path.isabs(frame.filename)]
+    folders = {os.path.dirname(path) for path in scripts.values()}
+    own = [frame for frame in frames if os.path.dirname(frame.filename) in folders]
+    if not own:
+        return f"Catalyst script: {reason}"
+    # A helper's line says what is wrong, the script's own line says whose fault it is: name the script's where it has one.
+    named = [frame for frame in own if frame.filename in scripts.values()] or own
+    return f"Catalyst script {named[-1].filename}, line {named[-1].lineno}: {reason}"
+
+
+def note_exception(kind, error, trace):
+    """sys.excepthook: for exceptions that ParaView would only print."""
+    global noted
+    if kind is not ScriptFailed and not noted:
+        noted = describe(error, trace)
+
+
+def take_noted():
+    global noted
+    text, noted = noted, ""
+    return text
+
+
+def guarded(function):
+    """The same function, but raising on all ranks if it raises (even SystemExit) on any."""
+
+    def call(*arguments):
+        failure, result = "", None
+        try:
+            result = function(*arguments)
+        except BaseException as error:
+            failure = describe(error, error.__traceback__)
+        failure = agree(failure)
+        if failure:
+            raise ScriptFailed(failure)
+        return result
+
+    return call
+
+
+def register_script(path):
+    """Registers under a name that is no other module's: a script may be called test.py or numpy.py."""
+    importers.install_pathfinder()
+    folder = os.path.dirname(path)
+    if folder not in sys.path:
+        sys.path.append(folder)  # so that a script can import its neighbours
+    stem = os.path.splitext(os.path.basename(path))[0]
+    source = os.path.join(path, "__init__.py") if os.path.isdir(path) else path
+    name = importers.add_file(source, "catalyst_script_" + stem)
+    scripts[name] = source
+    return name
+
+
+def import_script(name):
+    module = import_and_validate(name)
+    module.options.ExtractsOutputDirectory = image_directory
+    return module
+
+
+def inspect(path):
+    """Reads a script without running it: the list `fields` that it declares, or None where it has none."""
+    source = os.path.join(path, "__init__.py") if os.path.isdir(path) else path
+    try:
+        with open(source, encoding="utf-8") as file:
+            tree = ast.parse(file.read(), source)
+    except OSError as error:
+        raise RuntimeError(f"Catalyst script {path}: {error.strerror}") from None
+    except (SyntaxError, ValueError) as error:
+        raise RuntimeError(describe(error, None)) from None
+    for node in tree.body:
+        if isinstance(node, ast.Assign) and any(getattr(target, "id", "") == "fields" for target in node.targets):
+            try:
+                return [str(name) for name in ast.literal_eval(node.value)]
+            except (ValueError, TypeError):
+                raise RuntimeError(
+                    f'Catalyst script {path}, line {node.lineno}: fields must be a list of names, e.g. fields = ["damage"]'
+                ) from None
+    return None
+
+
+def forget_scripts():
+    """Lets go of all that the scripts made, while ParaView is still there to take it back."""
+    for name in scripts:
+        module = sys.modules.pop(name, None)
+        if module is not None:
+            vars(module).clear()
+    scripts.clear()
+    gc.collect()
+
+
+import_and_validate = v2_internals.import_and_validate
+v2_internals.register_module = register_script
+v2_internals.import_and_validate = guarded(import_script)
+for step in ("do_catalyst_initialize", "do_request_data_description", "do_catalyst_execute", "do_catalyst_finalize"):
+    setattr(v2_internals, step, guarded(getattr(v2_internals, step)))
+sys.excepthook = note_exception

@@ -1,0 +1,85 @@
+#include <vtkPython.h>  // before any other header
+
+#include <vtkPythonInterpreter.h>
+#include <vtkSmartPyObject.h>
+
+#include "core/error.hpp"
+#include "insitu/catalyst/guard_source.hpp"
+#include "insitu/catalyst/script_guard.hpp"
+
+namespace rhexis::insitu {
+namespace {
+
+constexpr const char* module_name = "rhexis_catalyst";
+constexpr const char* capsule_name = "rhexis_catalyst.agreement";
+
+/// What Python calls as agree(text).
+PyObject* agree(PyObject* self, PyObject* text) {
+  auto* agreement = static_cast<Agreement*>(PyCapsule_GetPointer(self, capsule_name));
+  const char* mine = PyUnicode_AsUTF8(text);
+  if (agreement == nullptr || mine == nullptr) return nullptr;
+  return PyUnicode_FromString(agreement->agree(mine).c_str());
+}
+
+PyMethodDef agree_definition = {"agree", &agree, METH_O, "first non-empty text of all ranks"};
+
+/// The pending Python exception as text, no longer pending.
+std::string take_exception() {
+  PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
+  PyErr_Fetch(&type, &value, &trace);
+  vtkSmartPyObject message(value == nullptr ? nullptr : PyObject_Str(value));
+  Py_XDECREF(type);
+  Py_XDECREF(value);
+  Py_XDECREF(trace);
+  const char* text = message ? PyUnicode_AsUTF8(message) : nullptr;
+  return text == nullptr ? "unknown Python error" : text;
+}
+
+vtkSmartPyObject call(const char* function, const char* argument = nullptr) {
+  PyObject* module = PyImport_AddModule(module_name);
+  vtkSmartPyObject result(argument == nullptr ? PyObject_CallMethod(module, function, nullptr)
+                                              : PyObject_CallMethod(module, function, "s", argument));
+  if (!result) throw RunError(take_exception());
+  return result;
+}
+
+}  // namespace
+
+ScriptGuard::ScriptGuard(Agreement& agreement, const std::string& image_directory) {
+  vtkPythonInterpreter::Initialize();
+  vtkPythonScopeGilEnsurer gil;
+  PyObject* names = PyModule_GetDict(PyImport_AddModule(module_name));
+  vtkSmartPyObject capsule(PyCapsule_New(&agreement, capsule_name, nullptr));
+  vtkSmartPyObject function(PyCFunction_New(&agree_definition, capsule));
+  PyDict_SetItemString(names, "agree", function);
+  PyDict_SetItemString(names, "__builtins__", PyEval_GetBuiltins());
+  vtkSmartPyObject code(Py_CompileString(guard_source, "rhexis guard.py", Py_file_input));
+  vtkSmartPyObject result(code ? PyEval_EvalCode(code, names, names) : nullptr);
+  if (!result) throw RunError("ParaView's Python: " + take_exception());
+  vtkSmartPyObject directory(PyUnicode_FromString(image_directory.c_str()));
+  PyDict_SetItemString(names, "image_directory", directory);
+}
+
+std::optional<std::vector<std::string>> ScriptGuard::declared_fields(const std::string& script) const {
+  vtkPythonScopeGilEnsurer gil;
+  const vtkSmartPyObject names = call("inspect", script.c_str());
+  if (names.GetPointer() == Py_None) return std::nullopt;
+  std::vector<std::string> fields;
+  for (Py_ssize_t i = 0; i < PyList_Size(names); ++i) {
+    fields.emplace_back(PyUnicode_AsUTF8(PyList_GetItem(names, i)));
+  }
+  return fields;
+}
+
+std::string ScriptGuard::take_noted() const {
+  vtkPythonScopeGilEnsurer gil;
+  const vtkSmartPyObject text = call("take_noted");
+  return PyUnicode_AsUTF8(text);
+}
+
+void ScriptGuard::forget_scripts() const {
+  vtkPythonScopeGilEnsurer gil;
+  call("forget_scripts");
+}
+
+}  // namespace rhexis::insitu

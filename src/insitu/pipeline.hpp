@@ -1,0 +1,76 @@
+/// Pictures while the program runs: what the solver sees of ParaView Catalyst. Nothing here needs ParaView, which is
+/// loaded (as the plugin librhexis_catalyst.so) only when a pipeline is asked for.
+///
+///     auto pipeline = insitu::load_pipeline({.scripts = {"/home/me/vessel.py"}, .image_directory = "/tmp/images"},
+///                                           parallel::Communicator::world());
+///     for (...) {                                       // every rank calls all of these, in the same order
+///       if (pipeline->wants(source.step(), source.time_s())) pipeline->process(source);
+///     }
+///     pipeline->finish();                               // before MPI ends
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/field_view.hpp"
+#include "parallel/communicator.hpp"
+
+namespace rhexis::insitu {
+
+/// Who draws. `automatic` takes the first that works of OSMesa (in memory, by the processor), EGL (no display, by a
+/// graphics card where there is one) and X11 (needs DISPLAY).
+enum class Renderer { automatic, osmesa, egl, x11 };
+
+struct Settings {
+  std::vector<std::string> scripts;  ///< absolute paths of Catalyst V2 Python scripts (.py or package folders)
+  std::string image_directory;       ///< every extract of every script lands here; made if missing
+  Renderer renderer = Renderer::automatic;
+};
+
+/// The plugin is not there, or the system lacks what it needs; the message says which.
+struct NotAvailable : RunError {
+  using RunError::RunError;
+};
+
+/// Catalyst scripts at work on one body, which they know as the channel `particles`. A script says which
+/// fields it needs by a line such as `fields = ["displacement", "damage"]` (literal strings, outside any function);
+/// without the line it gets all. All calls are collective, and what they throw they throw on every rank.
+class Pipeline {
+ public:
+  Pipeline() = default;
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+  virtual ~Pipeline() = default;
+
+  /// Who draws, e.g. "ParaView Catalyst 5.11.0, OSMesa (llvmpipe (LLVM 15.0.6, 256 bits))".
+  virtual std::string description() const = 0;
+
+  /// Whether some script's own triggers ask for this step. Scripts start at the first step processed, so
+  /// until then the answer is yes.
+  virtual bool wants(long step, double time_s) = 0;
+
+  /// Runs the scripts that want this step. The source's memory is read, not copied, and not touched after the return.
+  /// Throws RunError, naming script, line and reason, if a script fails on any rank. Should ranks get stuck because
+  /// a script raised on one while the others wait for it inside ParaView, the program is ended
+  /// (MPI_Abort, status 3) after RHEXIS_SCRIPT_TIMEOUT seconds (environment variable, default 60).
+  virtual void process(PointSource& source) = 0;
+
+  /// Ends scripts and ParaView; no other call may follow. A process can load one pipeline only.
+  virtual void finish() = 0;
+};
+
+/// Loads the plugin and checks the scripts (there? syntax? fields?) without running them. The plugin is looked for in
+/// the folder RHEXIS_PLUGIN_DIR (environment variable) or else in `../lib` beside the program's folder.
+/// Throws NotAvailable without ParaView, RunError for a bad script.
+std::unique_ptr<Pipeline> load_pipeline(const Settings& settings, parallel::Communicator communicator);
+
+/// Whether the plugin's file is in its place; costs nothing.
+bool plugin_available();
+
+/// The plugin's one entry point, found by name.
+using CreatePipeline = Pipeline*(const Settings&, parallel::Communicator);
+inline constexpr const char* create_pipeline_symbol = "rhexis_create_pipeline";
+
+}  // namespace rhexis::insitu

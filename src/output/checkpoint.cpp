@@ -1,0 +1,145 @@
+#include "output/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "output/disk_space.hpp"
+#include "output/hdf5_file.hpp"
+#include "output/together.hpp"
+
+namespace rhexis::output {
+namespace {
+
+constexpr const char* format_attribute = "format";
+constexpr const char* format_text = "rhexis checkpoint 1";
+
+Slab slab_of(const WordBlock& block) {
+  const auto size = [](std::int64_t value) { return static_cast<hsize_t>(value); };
+  return {.dimensions = 2,
+          .shape = {size(block.rows), size(block.words)},
+          .start = {size(block.first_row), size(block.first_word)},
+          .stride = {1, 1},
+          .count = {size(block.row_count), size(block.word_count)},
+          .block = {1, 1}};
+}
+
+void write_array(Hdf5File& file, const parallel::Communicator& communicator, const std::string& name,
+                 hid_t file_type, hid_t memory_type, const Slab& slab, const void* values) {
+  ByteRange bytes;
+  together<RunError>(communicator, [&] {
+    file.create_dataset(name, file_type, slab);
+    bytes = file.bytes_of(name);
+  });
+  on_root<RunError>(communicator, [&] { reserve_space(file.path(), {&bytes, 1}); });
+  together<RunError>(communicator, [&] { file.write(name, memory_type, slab, values); });
+}
+
+void read_array(const Hdf5File& file, const parallel::Communicator& communicator, const std::string& name,
+                hid_t memory_type, const Slab& slab, void* values) {
+  together<InputError>(communicator, [&] {
+    const std::vector<hsize_t> stored = file.shape(name), expected = slab.extent();
+    if (stored == expected) return;
+    throw InputError(fmt::format("{}: '{}' holds {} values, but this run has {}", file.path().string(), name,
+                                 fmt::join(stored, " x "), fmt::join(expected, " x ")));
+  });
+  together<InputError>(communicator, [&] { file.read(name, memory_type, slab, values); });
+}
+
+}  // namespace
+
+CheckpointWriter::CheckpointWriter(std::filesystem::path path, parallel::Communicator communicator)
+    : path_(std::move(path)), temporary_(path_.string() + ".part"), communicator_(communicator) {
+  together<RunError>(communicator_, [&] {
+    file_ = std::make_unique<Hdf5File>(temporary_, Hdf5File::Mode::create, communicator_);
+  });
+  write(format_attribute, std::string(format_text));
+}
+
+CheckpointWriter::~CheckpointWriter() {
+  if (!file_) return;
+  file_.reset();
+  std::error_code ignored;
+  if (communicator_.is_root()) std::filesystem::remove(temporary_, ignored);
+}
+
+void CheckpointWriter::write(const std::string& name, const PointLayout& layout,
+                             std::span<const double> values) {
+  assert(static_cast<std::int64_t>(values.size()) == layout.local_count());
+  write_array(*file_, communicator_, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, slab_of(layout, 1),
+              values.data());
+}
+
+void CheckpointWriter::write(const std::string& name, const WordBlock& block,
+                             std::span<const std::uint16_t> values) {
+  assert(static_cast<std::int64_t>(values.size()) == block.local_count());
+  write_array(*file_, communicator_, name, H5T_STD_U16LE, H5T_NATIVE_UINT16, slab_of(block), values.data());
+}
+
+void CheckpointWriter::write(const std::string& name, std::int64_t value) {
+  together<RunError>(communicator_, [&] { file_->write_attribute("/", name, H5T_NATIVE_INT64, &value); });
+}
+
+void CheckpointWriter::write(const std::string& name, double value) {
+  together<RunError>(communicator_, [&] { file_->write_attribute("/", name, H5T_NATIVE_DOUBLE, &value); });
+}
+
+void CheckpointWriter::write(const std::string& name, const std::string& text) {
+  together<RunError>(communicator_, [&] { file_->write_text("/", name, text); });
+}
+
+void CheckpointWriter::close() {
+  together<RunError>(communicator_, [&] { file_->flush(); });
+  together<RunError>(communicator_, [&] { file_->close(); });
+  on_root<RunError>(communicator_, [&] { std::filesystem::rename(temporary_, path_); });
+  file_.reset();
+}
+
+CheckpointReader::CheckpointReader(std::filesystem::path path, parallel::Communicator communicator)
+    : communicator_(communicator) {
+  on_root<InputError>(communicator_, [&] {
+    const std::string why_not = !std::filesystem::exists(path)            ? "there is no such file"
+                                : !std::filesystem::is_regular_file(path) ? "it is not a file"
+                                                                          : "";
+    if (!why_not.empty()) throw InputError(fmt::format("{}: cannot open: {}", path.string(), why_not));
+  });
+  together<InputError>(
+      communicator_, [&] { file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read, communicator_); });
+  together<InputError>(communicator_, [&] {
+    if (file_->has_attribute("/", format_attribute) && file_->read_text("/", format_attribute) == format_text)
+      return;
+    throw InputError(fmt::format("{}: not a checkpoint of this version of Rhexis", path.string()));
+  });
+}
+
+CheckpointReader::~CheckpointReader() = default;
+
+void CheckpointReader::read(const std::string& name, const PointLayout& layout, std::span<double> values) {
+  assert(static_cast<std::int64_t>(values.size()) == layout.local_count());
+  read_array(*file_, communicator_, name, H5T_NATIVE_DOUBLE, slab_of(layout, 1), values.data());
+}
+
+void CheckpointReader::read(const std::string& name, const WordBlock& block,
+                            std::span<std::uint16_t> values) {
+  assert(static_cast<std::int64_t>(values.size()) == block.local_count());
+  read_array(*file_, communicator_, name, H5T_NATIVE_UINT16, slab_of(block), values.data());
+}
+
+void CheckpointReader::read(const std::string& name, std::int64_t& value) {
+  together<InputError>(communicator_, [&] { file_->read_attribute("/", name, H5T_NATIVE_INT64, &value); });
+}
+
+void CheckpointReader::read(const std::string& name, double& value) {
+  together<InputError>(communicator_, [&] { file_->read_attribute("/", name, H5T_NATIVE_DOUBLE, &value); });
+}
+
+void CheckpointReader::read(const std::string& name, std::string& text) {
+  together<InputError>(communicator_, [&] { text = file_->read_text("/", name); });
+}
+
+}  // namespace rhexis::output

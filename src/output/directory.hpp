@@ -1,0 +1,23 @@
+/// The folder that a run writes to.
+#pragma once
+
+#include <filesystem>
+
+#include "parallel/communicator.hpp"
+
+namespace rhexis::output {
+
+/// What becomes of the results that an earlier run left in the folder.
+enum class EarlierResults {
+  remove,  ///< so that results of two runs never mix
+  keep     ///< a restart continues them
+};
+
+/// Makes `directory` with its parents, `images/` and `checkpoints/`, and makes sure that it can be written
+/// to. Of earlier results only the files that runs write are removed (run.json, history.csv, particles.*,
+/// network.*, movie.mp4, images/*.png); checkpoints and everything else stay. Collective; throws InputError
+/// on all ranks if the folder cannot be used, and then leaves nothing new behind.
+void prepare_directory(const std::filesystem::path& directory, EarlierResults earlier,
+                       const parallel::Communicator& communicator);
+
+}  // namespace rhexis::output

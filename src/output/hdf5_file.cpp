@@ -1,0 +1,193 @@
+#include "output/hdf5_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace rhexis::output {
+namespace {
+
+/// The innermost message on HDF5's error stack.
+std::string reason() {
+  std::string text;
+  const auto first_message = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {
+    auto& message = *static_cast<std::string*>(out);
+    if (message.empty() && error->desc != nullptr) message = error->desc;
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, first_message, &text);
+  return text.empty() ? "HDF5 gives no reason" : text;
+}
+
+Hdf5Handle text_type(std::size_t length) {
+  // HDF5 has no strings of length 0; the terminating zero makes room for them.
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  const bool succeeded =
+      type >= 0 && H5Tset_size(type, length + 1) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
+  return succeeded ? std::move(type) : Hdf5Handle{};
+}
+
+}  // namespace
+
+Hdf5Handle::Hdf5Handle(Hdf5Handle&& other) noexcept
+    : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+
+Hdf5Handle& Hdf5Handle::operator=(Hdf5Handle&& other) noexcept {
+  std::swap(id_, other.id_);
+  std::swap(close_, other.close_);
+  return *this;
+}
+
+bool Hdf5Handle::reset() {
+  const hid_t id = std::exchange(id_, -1);
+  return id < 0 || close_(id) >= 0;
+}
+
+Slab slab_of(const PointLayout& layout, int components) {
+  const auto size = [](std::int64_t value) { return static_cast<hsize_t>(value); };
+  const auto width = static_cast<hsize_t>(components);
+  return {.dimensions = components == 1 ? 1 : 2,
+          .shape = {size(layout.global_count()), width},
+          .start = {size(layout.first_column * layout.rows + layout.first_row), 0},
+          .stride = {size(layout.rows), width},
+          .count = {size(layout.column_count), 1},
+          .block = {size(layout.row_count), width}};
+}
+
+void Hdf5File::require(bool succeeded, std::string_view doing, std::string_view object) const {
+  if (succeeded) return;
+  throw std::runtime_error(fmt::format("{}: cannot {} {}: {}", path_.string(), doing, object, reason()));
+}
+
+Hdf5Handle Hdf5File::own(hid_t id, Hdf5Handle::Close closer, std::string_view doing,
+                         std::string_view object) const {
+  require(id >= 0, doing, object);
+  return Hdf5Handle(id, closer);
+}
+
+Hdf5File::Hdf5File(std::filesystem::path path, Mode mode, const parallel::Communicator& communicator)
+    : path_(std::move(path)) {
+  // Its stack of reasons goes into our messages instead.
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  const Hdf5Handle access = own(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "prepare", "the access");
+  require(H5Pset_fapl_mpio(access, communicator.handle(), MPI_INFO_NULL) >= 0, "prepare", "the access");
+  collective_ = own(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "prepare", "the transfer");
+  require(H5Pset_dxpl_mpio(collective_, H5FD_MPIO_COLLECTIVE) >= 0, "prepare", "the transfer");
+  const std::string name = path_.string();
+  file_ =
+      mode == Mode::create
+          ? own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create", "the file")
+          : own(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open", "the file");
+}
+
+void Hdf5File::create_group(const std::string& name) {
+  own(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "create group", name);
+}
+
+void Hdf5File::create_dataset(const std::string& name, hid_t type, const Slab& slab) {
+  const Hdf5Handle space =
+      own(H5Screate_simple(slab.dimensions, slab.shape.data(), nullptr), H5Sclose, "describe", name);
+  const Hdf5Handle layout = own(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe", name);
+  // Without times, writing values touches no metadata; without filling, creating costs neither time nor disk.
+  require(
+      H5Pset_layout(layout, H5D_CONTIGUOUS) >= 0 && H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY) >= 0 &&
+          H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER) >= 0 && H5Pset_obj_track_times(layout, false) >= 0,
+      "describe", name);
+  own(H5Dcreate2(file_, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT), H5Dclose,
+      "create data set", name);
+}
+
+Hdf5Handle Hdf5File::open_dataset(const std::string& name) const {
+  return own(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose, "open data set", name);
+}
+
+Hdf5Handle Hdf5File::select(const Slab& slab, const std::string& name) const {
+  Hdf5Handle space =
+      own(H5Screate_simple(slab.dimensions, slab.shape.data(), nullptr), H5Sclose, "describe", name);
+  const bool empty = slab.count[0] == 0 || slab.block[0] == 0;
+  require((empty ? H5Sselect_none(space)
+                 : H5Sselect_hyperslab(space, H5S_SELECT_SET, slab.start.data(), slab.stride.data(),
+                                       slab.count.data(), slab.block.data())) >= 0,
+          "select this rank's part of", name);
+  return space;
+}
+
+void Hdf5File::write(const std::string& name, hid_t memory_type, const Slab& slab, const void* values) {
+  const Hdf5Handle dataset = open_dataset(name);
+  const Hdf5Handle in_file = select(slab, name);
+  const hsize_t count = static_cast<hsize_t>(H5Sget_select_npoints(in_file));
+  const Hdf5Handle in_memory = own(H5Screate_simple(1, &count, nullptr), H5Sclose, "describe", name);
+  require(H5Dwrite(dataset, memory_type, in_memory, in_file, collective_, values) >= 0, "write", name);
+}
+
+void Hdf5File::read(const std::string& name, hid_t memory_type, const Slab& slab, void* values) const {
+  const Hdf5Handle dataset = open_dataset(name);
+  const Hdf5Handle in_file = select(slab, name);
+  const hsize_t count = static_cast<hsize_t>(H5Sget_select_npoints(in_file));
+  const Hdf5Handle in_memory = own(H5Screate_simple(1, &count, nullptr), H5Sclose, "describe", name);
+  require(H5Dread(dataset, memory_type, in_memory, in_file, collective_, values) >= 0, "read", name);
+}
+
+std::vector<hsize_t> Hdf5File::shape(const std::string& name) const {
+  const Hdf5Handle dataset = open_dataset(name);
+  const Hdf5Handle space = own(H5Dget_space(dataset), H5Sclose, "read the shape of", name);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
+  require(H5Sget_simple_extent_dims(space, extent.data(), nullptr) >= 0, "read the shape of", name);
+  return extent;
+}
+
+ByteRange Hdf5File::bytes_of(const std::string& name) const {
+  const Hdf5Handle dataset = open_dataset(name);
+  const haddr_t offset = H5Dget_offset(dataset);
+  require(offset != HADDR_UNDEF, "find the place of", name);
+  return {static_cast<std::int64_t>(offset), static_cast<std::int64_t>(H5Dget_storage_size(dataset))};
+}
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name, hid_t type,
+                               const void* value) {
+  const Hdf5Handle space = own(H5Screate(H5S_SCALAR), H5Sclose, "describe attribute", name);
+  const Hdf5Handle attribute = own(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space,
+                                                     H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                                   H5Aclose, "create attribute", name);
+  require(H5Awrite(attribute, type, value) >= 0, "write attribute", name);
+}
+
+void Hdf5File::write_text(const std::string& object, const std::string& name, const std::string& text) {
+  const Hdf5Handle type = text_type(text.size());
+  require(type >= 0, "describe attribute", name);
+  write_attribute(object, name, type, text.c_str());
+}
+
+bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
+  return H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+void Hdf5File::read_attribute(const std::string& object, const std::string& name, hid_t type,
+                              void* value) const {
+  const Hdf5Handle attribute =
+      own(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+          "open attribute", name);
+  require(H5Aread(attribute, type, value) >= 0, "read attribute", name);
+}
+
+std::string Hdf5File::read_text(const std::string& object, const std::string& name) const {
+  const Hdf5Handle attribute =
+      own(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+          "open attribute", name);
+  std::string text(static_cast<std::size_t>(H5Aget_storage_size(attribute)), '\0');
+  const Hdf5Handle type = text_type(text.size() - 1);
+  require(type >= 0 && H5Aread(attribute, type, text.data()) >= 0, "read attribute", name);
+  return text.c_str();
+}
+
+void Hdf5File::flush() {
+  require(H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0, "flush", "the file");
+}
+
+void Hdf5File::close() {
+  require(file_.reset(), "close", "the file");
+}
+
+}  // namespace rhexis::output

@@ -1,0 +1,93 @@
+/// Parallel HDF5 behind a few words: handles that close themselves, calls that throw, blocks of a point
+/// numbering.
+#pragma once
+
+#include <hdf5.h>
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/field_view.hpp"
+#include "output/disk_space.hpp"
+#include "parallel/communicator.hpp"
+
+namespace rhexis::output {
+
+/// An HDF5 identifier that is closed with its owner.
+class Hdf5Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Hdf5Handle() = default;
+  Hdf5Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Hdf5Handle(Hdf5Handle&& other) noexcept;
+  Hdf5Handle& operator=(Hdf5Handle&& other) noexcept;
+  ~Hdf5Handle() { reset(); }
+  operator hid_t() const { return id_; }
+  /// Closes now; false if HDF5 reports a failure.
+  bool reset();
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+/// This rank's part of a data set of one or two dimensions: a regular set of blocks, as H5Sselect_hyperslab.
+struct Slab {
+  int dimensions = 1;
+  std::array<hsize_t, 2> shape{}, start{}, stride{}, count{}, block{};
+
+  std::vector<hsize_t> extent() const { return {shape.begin(), shape.begin() + dimensions}; }
+};
+
+/// The rank's points, `components` values each: shape [N] for one component, else [N, components]. Its
+/// columns are blocks of `row_count` ids, `rows` apart.
+Slab slab_of(const PointLayout& layout, int components);
+
+/// A file open on all ranks of a communicator. Every call is collective and throws std::runtime_error whose
+/// text names the file, what was being done and HDF5's reason, possibly on some ranks only: see `together`.
+/// HDF5 itself prints nothing.
+class Hdf5File {
+ public:
+  enum class Mode { create, read };
+  Hdf5File(std::filesystem::path path, Mode mode, const parallel::Communicator& communicator);
+
+  const std::filesystem::path& path() const { return path_; }
+
+  void create_group(const std::string& name);
+  /// A data set of which `slab` is this rank's part. Its space in the file is laid out now; its values are
+  /// whatever the disk holds (zeros in a new file) until they are written.
+  void create_dataset(const std::string& name, hid_t type, const Slab& slab);
+  /// Every rank writes (reads) its part; `memory_type` of the values in memory, dense, in the order of the
+  /// slab.
+  void write(const std::string& name, hid_t memory_type, const Slab& slab, const void* values);
+  void read(const std::string& name, hid_t memory_type, const Slab& slab, void* values) const;
+  /// The extent of a data set; throws if there is none of that name.
+  std::vector<hsize_t> shape(const std::string& name) const;
+  /// Where a data set's values lie in the file.
+  ByteRange bytes_of(const std::string& name) const;
+
+  /// Attributes of a group or a data set; the same value on every rank.
+  void write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value);
+  void write_text(const std::string& object, const std::string& name, const std::string& text);
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  void read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const;
+  std::string read_text(const std::string& object, const std::string& name) const;
+
+  /// Hands everything written so far to the operating system and waits until it is on disk.
+  void flush();
+  void close();
+
+ private:
+  void require(bool succeeded, std::string_view doing, std::string_view object) const;
+  Hdf5Handle own(hid_t id, Hdf5Handle::Close closer, std::string_view doing, std::string_view object) const;
+  Hdf5Handle open_dataset(const std::string& name) const;
+  Hdf5Handle select(const Slab& slab, const std::string& name) const;
+
+  std::filesystem::path path_;
+  Hdf5Handle file_, collective_;
+};
+
+}  // namespace rhexis::output

@@ -1,0 +1,79 @@
+#include "output/history.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+#include "core/error.hpp"
+#include "output/atomic_file.hpp"
+#include "output/together.hpp"
+
+namespace rhexis::output {
+namespace {
+
+constexpr const char* header =
+    "step,time_s,pressure_Pa,max_displacement_m,max_damage,broken_bonds,kinetic_J,strain_J,external_work_J,"
+    "rupture_length_m,leak_m3_s";
+
+std::string line_of(const HistoryRow& row) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", row.step, row.time_s, row.pressure_Pa,
+                     row.max_displacement_m, row.max_damage, row.broken_bonds, row.kinetic_J, row.strain_J,
+                     row.external_work_J, row.rupture_length_m,
+                     row.leak_m3_s ? fmt::format("{}", *row.leak_m3_s) : std::string{});
+}
+
+/// The header and the complete rows up to `last_step` of the file; the header alone where there is no file.
+std::string kept_text(const std::filesystem::path& path, long last_step) {
+  std::string kept = fmt::format("{}\n", header);
+  std::ifstream file(path);
+  if (!file) return kept;
+  std::string line;
+  std::getline(file, line);
+  if (line != header) {
+    throw InputError(fmt::format("{}: not a history of this program: its first line should be '{}'",
+                                 path.string(), header));
+  }
+  // getline meets the end of the file on a last line without a line break: one that a crash cut short.
+  while (std::getline(file, line) && !file.eof()) {
+    long step = 0;
+    if (!(std::istringstream(line) >> step)) {
+      throw InputError(fmt::format("{}: this row does not begin with a step: '{}'", path.string(), line));
+    }
+    if (step <= last_step) kept += line + '\n';
+  }
+  return kept;
+}
+
+}  // namespace
+
+History::History(std::filesystem::path path, parallel::Communicator communicator)
+    : path_(std::move(path)), communicator_(communicator) {
+  start_with(fmt::format("{}\n", header));
+}
+
+History::History(std::filesystem::path path, parallel::Communicator communicator, long restart_step)
+    : path_(std::move(path)), communicator_(communicator) {
+  std::string kept;
+  on_root<InputError>(communicator_, [&] { kept = kept_text(path_, restart_step); });
+  start_with(kept);
+}
+
+void History::start_with(const std::string& text) {
+  on_root<RunError>(communicator_, [&] {
+    write_atomically(path_, text);
+    file_.open(path_, std::ios::binary | std::ios::app);
+    if (!file_) throw RunError(fmt::format("{}: cannot open: {}", path_.string(), std::strerror(errno)));
+  });
+}
+
+void History::append(const HistoryRow& row) {
+  on_root<RunError>(communicator_, [&] {
+    file_ << line_of(row) << std::flush;
+    if (!file_) throw RunError(fmt::format("{}: cannot add a row: {}", path_.string(), std::strerror(errno)));
+  });
+}
+
+}  // namespace rhexis::output

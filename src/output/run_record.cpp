@@ -1,0 +1,102 @@
+#include "output/run_record.hpp"
+
+#include <sys/resource.h>
+
+#include <fstream>
+#include <utility>
+
+#include "core/error.hpp"
+#include "output/atomic_file.hpp"
+#include "output/together.hpp"
+
+namespace rhexis::output {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+}  // namespace
+
+void to_json(Json& json, const NetworkResults& network) {
+  json = Json::object({{"vessels", or_null(network.vessels)},
+                       {"junctions", or_null(network.junctions)},
+                       {"inflow_m3_s", or_null(network.inflow_m3_s)},
+                       {"max_imbalance", or_null(network.max_imbalance)},
+                       {"volume_m3", or_null(network.volume_m3)},
+                       {"solver", or_null(network.solver)},
+                       {"iterations", or_null(network.iterations)}});
+}
+
+void to_json(Json& json, const Results& results) {
+  json = Json::object({{"particles", or_null(results.particles)},
+                       {"bonds", or_null(results.bonds)},
+                       {"family_max", or_null(results.family_max)},
+                       {"time_step_s", or_null(results.time_step_s)},
+                       {"stable_time_step_s", or_null(results.stable_time_step_s)},
+                       {"steps", or_null(results.steps)},
+                       {"simulated_s", or_null(results.simulated_s)},
+                       {"first_bond_break_s", or_null(results.first_bond_break_s)},
+                       {"rupture_onset_s", or_null(results.rupture_onset_s)},
+                       {"max_displacement_m", or_null(results.max_displacement_m)},
+                       {"max_damage", or_null(results.max_damage)},
+                       {"rupture_length_m", or_null(results.rupture_length_m)},
+                       {"energy_drift", or_null(results.energy_drift)},
+                       {"network", results.network}});
+}
+
+void to_json(Json& json, const Performance& performance) {
+  json = Json::object({{"ranks", or_null(performance.ranks)},
+                       {"threads", or_null(performance.threads)},
+                       {"wall_s", or_null(performance.wall_s)},
+                       {"solve_s", or_null(performance.solve_s)},
+                       {"insitu_s", or_null(performance.insitu_s)},
+                       {"output_s", or_null(performance.output_s)},
+                       {"bond_evaluations", or_null(performance.bond_evaluations)},
+                       {"bond_evaluations_per_s", or_null(performance.bond_evaluations_per_s)},
+                       {"flop", or_null(performance.flop)},
+                       {"peak_rss_bytes", or_null(performance.peak_rss_bytes)},
+                       {"node_hours", or_null(performance.node_hours)}});
+}
+
+RunRecord::RunRecord(std::filesystem::path path, const std::string& version, const std::string& commit,
+                     Json input, parallel::Communicator communicator)
+    : path_(std::move(path)), communicator_(communicator) {
+  document_ = Json::object({{"version", version}, {"commit", commit}, {"input", std::move(input)}});
+  write("running", {}, {});
+}
+
+void RunRecord::complete(const Results& results, const Performance& performance) {
+  write("completed", results, performance);
+}
+
+void RunRecord::fail(const std::string& reason, const Results& results, const Performance& performance) {
+  write("failed: " + reason, results, performance);
+}
+
+void RunRecord::write(const std::string& status, const Results& results, const Performance& performance) {
+  on_root<RunError>(communicator_, [&] {
+    document_["status"] = status;
+    document_["results"] = results;
+    document_["performance"] = performance;
+    // A reason may quote a file name in any encoding; it must not cost us the record.
+    write_atomically(path_, document_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  });
+}
+
+std::int64_t peak_resident_bytes() {
+  // VmHWM, because ru_maxrss also counts the process that started this one.
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::int64_t kibibytes = 0;
+    if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+}  // namespace rhexis::output

@@ -1,0 +1,82 @@
+/// run.json: what was run, how it ended, what came out and what it cost.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "parallel/communicator.hpp"
+
+namespace rhexis::output {
+
+/// The `results.network` part; a member without a value is written as null.
+struct NetworkResults {
+  std::optional<std::int64_t> vessels, junctions;
+  std::optional<double> inflow_m3_s;
+  std::optional<double> max_imbalance;  ///< relative to the inflow
+  std::optional<double> volume_m3;
+  std::optional<std::string> solver;
+  std::optional<std::int64_t> iterations;
+};
+
+/// The `results` part; a member without a value is written as null.
+struct Results {
+  std::optional<std::int64_t> particles;
+  std::optional<std::int64_t> bonds;  ///< undirected
+  std::optional<std::int64_t> family_max;
+  std::optional<double> time_step_s, stable_time_step_s;
+  std::optional<std::int64_t> steps;
+  std::optional<double> simulated_s;
+  std::optional<double> first_bond_break_s;
+  std::optional<double> rupture_onset_s;  ///< first time that some particle's damage >= 0.2
+  std::optional<double> max_displacement_m, max_damage;
+  std::optional<double> rupture_length_m;  ///< axial extent of damage >= 0.2
+  std::optional<double> energy_drift;
+  NetworkResults network;
+};
+
+/// The `performance` part; a member without a value is written as null.
+struct Performance {
+  std::optional<std::int64_t> ranks, threads;
+  std::optional<double> wall_s;
+  std::optional<double> solve_s;  ///< the time loop less output and in situ
+  std::optional<double> insitu_s, output_s;
+  std::optional<std::int64_t> bond_evaluations;  ///< directed
+  std::optional<double> bond_evaluations_per_s;
+  std::optional<double> flop;
+  std::optional<std::int64_t> peak_rss_bytes;  ///< sum over all ranks
+  std::optional<double> node_hours;
+};
+
+void to_json(nlohmann::ordered_json& json, const NetworkResults& network);
+void to_json(nlohmann::ordered_json& json, const Results& results);
+void to_json(nlohmann::ordered_json& json, const Performance& performance);
+
+/// The file, from the first moment of a run to its last. Collective; only the root writes, in one step each
+/// time, so the file can be read at any moment. All writing throws RunError on all ranks when it cannot be
+/// done.
+class RunRecord {
+ public:
+  /// `input` is the whole configuration as resolved. Writes the file with status "running".
+  RunRecord(std::filesystem::path path, const std::string& version, const std::string& commit,
+            nlohmann::ordered_json input, parallel::Communicator communicator);
+
+  void complete(const Results& results, const Performance& performance);
+
+  /// Status "failed: `reason`", with what is known so far.
+  void fail(const std::string& reason, const Results& results, const Performance& performance);
+
+ private:
+  void write(const std::string& status, const Results& results, const Performance& performance);
+
+  std::filesystem::path path_;
+  nlohmann::ordered_json document_;
+  parallel::Communicator communicator_;
+};
+
+/// The most memory that this process has held so far (bytes, resident).
+std::int64_t peak_resident_bytes();
+
+}  // namespace rhexis::output

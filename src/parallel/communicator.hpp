@@ -1,0 +1,58 @@
+/// MPI behind a few words. Only `parallel/` includes <mpi.h>; a serial run is one rank of the same path.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace rhexis::parallel {
+
+/// Initialises MPI for the life of the program (MPI_THREAD_FUNNELED: only the main thread calls MPI).
+class Session {
+ public:
+  Session(int& argc, char**& argv);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+};
+
+enum class Reduce { sum, min, max, bit_or };
+
+/// A borrowed group of ranks; cheap to copy.
+class Communicator {
+ public:
+  static Communicator world() { return Communicator(MPI_COMM_WORLD); }
+  explicit Communicator(MPI_Comm handle) : handle_(handle) {}
+
+  int rank() const;
+  int size() const;
+  bool is_root() const { return rank() == 0; }
+  void barrier() const;
+  MPI_Comm handle() const { return handle_; }
+
+  /// Element-wise over all ranks, in place, result on every rank. All but the sum of doubles are exact and so
+  /// do not depend on the number of ranks; for sums of doubles see ExactSum.
+  void all_reduce(std::span<double> values, Reduce operation) const;
+  void all_reduce(std::span<std::int64_t> values, Reduce operation) const;
+  void all_reduce(std::span<std::uint64_t> values, Reduce operation) const;
+  double all_reduce(double value, Reduce operation) const;
+  std::int64_t all_reduce(std::int64_t value, Reduce operation) const;
+
+  /// `text` of `root` on every rank.
+  std::string broadcast(std::string text, int root = 0) const;
+
+  /// The first non-empty text in rank order, on every rank; empty if all are: how a failure on any rank
+  /// becomes one message and one exit status everywhere.
+  std::string first_non_empty(const std::string& text) const;
+
+ private:
+  MPI_Comm handle_;
+};
+
+/// Threads that OpenMP will use in a parallel region.
+int thread_count();
+
+}  // namespace rhexis::parallel

@@ -1,0 +1,63 @@
+/// Sums of doubles that do not depend on the order of their terms, hence not on ranks and threads.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "parallel/communicator.hpp"
+
+namespace rhexis::parallel {
+
+/// Fixed-point accumulator: terms are cut to a quantum 2^-80 times the power of two above `scale` and added as
+/// 128-bit integers, which is exact. Terms up to 2^20 times the scale fit; larger ones (or nan) make it infinite.
+class ExactSum {
+ public:
+  explicit ExactSum(double scale) : quantum_(std::ldexp(1.0, std::ilogb(scale) + 1 - 80)) {}
+
+  void add(double term) {
+    const double units = term / quantum_;
+    if (std::abs(units) < 0x1p100) {
+      total_ += static_cast<Integer>(units);
+    } else {
+      overflow_ = true;
+    }
+  }
+
+  void add(const ExactSum& other) {
+    total_ += other.total_;
+    overflow_ = overflow_ || other.overflow_;
+  }
+
+  /// Of this rank alone.
+  double value() const {
+    return overflow_ ? std::numeric_limits<double>::infinity() : static_cast<double>(total_) * quantum_;
+  }
+
+  /// Over all ranks (collective).
+  double value(Communicator comm) const {
+    // Four limbs of 32 bits, the last one signed: sums over up to 2^31 ranks fit 64 bits each.
+    std::int64_t limbs[5];
+    Integer rest = total_;
+    for (int i = 0; i < 3; ++i) {
+      limbs[i] = static_cast<std::int64_t>(rest & 0xffffffff);
+      rest >>= 32;
+    }
+    limbs[3] = static_cast<std::int64_t>(rest);
+    limbs[4] = overflow_;
+    comm.all_reduce(limbs, Reduce::sum);
+    ExactSum sum(*this);
+    sum.overflow_ = limbs[4] != 0;
+    sum.total_ = 0;
+    for (int i = 3; i >= 0; --i) sum.total_ = sum.total_ * (Integer{1} << 32) + limbs[i];
+    return sum.value();
+  }
+
+ private:
+  __extension__ using Integer = __int128;
+  double quantum_;
+  Integer total_ = 0;
+  bool overflow_ = false;
+};
+
+}  // namespace rhexis::parallel

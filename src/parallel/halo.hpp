@@ -1,0 +1,41 @@
+/// Exchange of values that several ranks need, in two halves so that work fits in between.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "parallel/communicator.hpp"
+
+namespace rhexis::parallel {
+
+/// A contiguous run of values in each of a vector field's component arrays.
+struct Run {
+  std::size_t offset = 0, count = 0;
+};
+
+/// What goes to and comes from one rank; both sides list runs in the same order.
+struct HaloMessage {
+  int rank = 0;
+  std::vector<Run> send, receive;
+};
+
+/// Real is float or double. A message to the own rank (periodic ends) is a copy.
+template <class Real>
+class HaloExchange {
+ public:
+  HaloExchange(Communicator comm, std::vector<HaloMessage> messages);
+
+  /// Packs and sends the runs of `field`; they may be read but not written until `finish`.
+  void start(const std::array<Real*, 3>& field);
+  /// Waits and writes what came into the halo of `field`.
+  void finish(const std::array<Real*, 3>& field);
+
+ private:
+  Communicator comm_;
+  std::vector<HaloMessage> messages_;
+  std::vector<std::vector<Real>> outgoing_, incoming_;
+  std::vector<MPI_Request> requests_;
+};
+
+}  // namespace rhexis::parallel

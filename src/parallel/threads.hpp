@@ -1,0 +1,21 @@
+/// Threads behind two words: a fixed number of workers, each given one contiguous share.
+#pragma once
+
+#include <cstddef>
+
+namespace rhexis::parallel {
+
+/// Calls `work(thread, begin, end)` once on each thread, with contiguous shares of [0, count) that are the same
+/// in every call: a thread meets the same data each step. `work` must not throw.
+template <class Work>
+void for_each_share(int threads, std::size_t count, const Work& work) {
+#pragma omp parallel for schedule(static, 1) num_threads(threads)
+  for (int t = 0; t < threads; ++t) {
+    const auto share = [&](int k) {
+      return count * static_cast<std::size_t>(k) / static_cast<std::size_t>(threads);
+    };
+    work(t, share(t), share(t + 1));
+  }
+}
+
+}  // namespace rhexis::parallel

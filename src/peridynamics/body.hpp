@@ -1,0 +1,110 @@
+/// A vessel's wall in motion: state, bonds, one time step, and what observers may know of it.
+///
+/// Velocity Verlet in its leapfrog form, one pass over memory a step: forces at t_n, then
+///   v_{n+1/2} = v_{n-1/2} + dt a_n,   u_{n+1} = u_n + dt v_{n+1/2};
+/// the velocity at t_n is v_{n-1/2} + dt/2 a_n. Displacements that bonds read are kept a second time, in the
+/// bonds' precision and in spacings, in two padded copies: one is read while the other is written.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/field_view.hpp"
+#include "parallel/communicator.hpp"
+#include "peridynamics/bond_family.hpp"
+#include "peridynamics/pressure_layer.hpp"
+
+namespace rhexis::peridynamics {
+
+/// What happened on this rank in one step.
+struct StepEvents {
+  std::int64_t broken = 0;      ///< directed bonds broken by the forces' evaluation at t_n
+  bool damaged = false;         ///< a particle's damage has reached `rupture_damage`
+  bool unstable = false;        ///< a particle moved more than a spacing in one step, or is not a number
+};
+
+/// Damage from which a particle counts as ruptured (run.json: rupture_onset_s, rupture_length_m).
+inline constexpr double rupture_damage = 0.2;
+
+/// Per-particle values at one moment, owned particles, column by column; SI units.
+struct Observation {
+  std::array<std::vector<double>, 3> velocity;       ///< m/s
+  std::array<std::vector<double>, 3> force_density;  ///< N/m3: bonds and pressure
+  std::vector<double> strain_energy_density;         ///< J/m3
+  std::vector<double> damage;                        ///< Eq. (6), 0..1
+};
+
+/// Sums over the whole body (all ranks), independent of the partition. SI units.
+struct Totals {
+  double kinetic = 0, strain = 0, fracture = 0, external_work = 0;  ///< J
+  double max_displacement = 0;                                       ///< m
+  double max_damage = 0;
+  std::int64_t broken_bonds = 0;  ///< undirected
+  double rupture_length = 0;      ///< m, axial extent of damage >= rupture_damage, reference rows
+};
+
+class Body {
+ public:
+  virtual ~Body() = default;
+
+  virtual const PointLayout& layout() const = 0;
+  /// Displacement u (m) of owned particles, structure of arrays.
+  virtual std::array<std::span<const double>, 3> displacement() const = 0;
+  /// Reference positions (m) of owned particle (local column, local row).
+  virtual std::array<double, 3> reference_position(std::int64_t column, std::int64_t row) const = 0;
+
+  /// Sets displacement (m) and velocity (m/s) at the present time; all bonds as they are.
+  virtual void set_state(const std::array<std::vector<double>, 3>& displacement,
+                         const std::array<std::vector<double>, 3>& velocity) = 0;
+
+  /// Advances by one step under `pressure` (Pa) at t_n; `next_pressure` is the one at t_{n+1}, for the work
+  /// done. Collective.
+  virtual StepEvents advance(double pressure, double next_pressure) = 0;
+
+  /// Breaks what is due at the present time and evaluates all fields. Collective. The reference stays valid
+  /// until the next call.
+  virtual const Observation& observe(double pressure) = 0;
+  /// Of the last observation. Collective.
+  virtual Totals totals() const = 0;
+  /// Largest |u|, m. Collective.
+  virtual double max_displacement() const = 0;
+
+  /// Directed bond evaluations so far, on this rank.
+  virtual std::int64_t bond_evaluations() const = 0;
+
+  /// All that a restart needs beside displacement: leapfrog velocity (m/s), bond words and the work done so far.
+  /// Words are stored [local column's bond][local block]; see `bond_rows`.
+  struct Saved {
+    std::array<std::vector<double>, 3> displacement, leapfrog_velocity;
+    std::vector<std::uint16_t> words;
+    bool first_kick_pending = false;
+    double external_work = 0;
+    std::array<double, 3> frame{};
+  };
+  virtual Saved save() const = 0;
+  virtual void restore(const Saved& saved) = 0;
+};
+
+struct BodySetup {
+  Lattice lattice;
+  BondFamilies families;
+  PressureLayer layer;
+  EndCondition ends = EndCondition::free;
+  double end_length = 0;        ///< m held at each end
+  double density = 0;           ///< kg/m3
+  double bond_constant = 0;     ///< N/m6
+  double critical_stretch = 0;
+  double time_step = 0;         ///< s
+  double energy_scale = 0;      ///< J, order of magnitude of the energies that will occur
+  bool double_bonds = false;
+};
+
+/// The setup that resolved parameters describe.
+BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families, double time_step);
+
+std::unique_ptr<Body> make_body(BodySetup setup, parallel::Communicator comm);
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,118 @@
+#include "peridynamics/bond_family.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace rhexis::peridynamics {
+namespace {
+
+/// Columns sorted into square bins as wide as the horizon, so that only nine bins need a look.
+class ColumnBins {
+ public:
+  ColumnBins(const CrossSection& section, double width) : width_(width) {
+    for (std::size_t c = 0; c < section.size(); ++c) {
+      bins_[key(section.x[c], section.y[c])].push_back(static_cast<std::int32_t>(c));
+    }
+  }
+
+  /// Columns of the nine bins around (x, y), ascending.
+  std::vector<std::int32_t> around(double x, double y) const {
+    std::vector<std::int32_t> found;
+    const auto [kx, ky] = key(x, y);
+    for (long dx = -1; dx <= 1; ++dx) {
+      for (long dy = -1; dy <= 1; ++dy) {
+        const auto bin = bins_.find({kx + dx, ky + dy});
+        if (bin != bins_.end()) found.insert(found.end(), bin->second.begin(), bin->second.end());
+      }
+    }
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+ private:
+  std::pair<long, long> key(double x, double y) const {
+    return {static_cast<long>(std::floor(x / width_)), static_cast<long>(std::floor(y / width_))};
+  }
+
+  double width_;
+  std::map<std::pair<long, long>, std::vector<std::int32_t>> bins_;
+};
+
+/// Particles of rows 0..rows-1 that have a partner `offset` rows away.
+std::int64_t rows_with_partner(std::int64_t rows, int offset, bool periodic) {
+  return periodic ? rows : std::max<std::int64_t>(0, rows - std::abs(offset));
+}
+
+}  // namespace
+
+BondFamilies make_families(const Lattice& lattice) {
+  const CrossSection& s = lattice.section;
+  // Neighbours exactly at the horizon count, whatever the last digit says.
+  const double horizon = lattice.horizon / lattice.spacing * (1 + 1e-9);
+  const double step = lattice.row_spacing / lattice.spacing;
+  const auto reach = static_cast<int>(std::floor(horizon / step));
+  const ColumnBins bins(s, lattice.horizon * (1 + 1e-9));
+
+  BondFamilies families;
+  families.first.push_back(0);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    for (std::int32_t j : bins.around(s.x[i], s.y[i])) {
+      const double xi_x = (s.x[j] - s.x[i]) / lattice.spacing;
+      const double xi_y = (s.y[j] - s.y[i]) / lattice.spacing;
+      for (int m = -reach; m <= reach; ++m) {
+        const double xi_z = step * m;
+        const double length = std::sqrt(xi_x * xi_x + xi_y * xi_y + xi_z * xi_z);
+        if (length > horizon || length == 0) continue;
+        families.bonds.push_back({j, m, {xi_x, xi_y, xi_z}, length});
+        families.reach = std::max(families.reach, std::abs(m));
+      }
+    }
+    families.first.push_back(static_cast<std::int64_t>(families.bonds.size()));
+  }
+  return families;
+}
+
+std::int64_t BondFamilies::largest() const {
+  std::int64_t most = 0;
+  for (std::size_t c = 0; c + 1 < first.size(); ++c) most = std::max(most, count(c));
+  return most;
+}
+
+std::int64_t count_bonds(const Lattice& lattice, const BondFamilies& families, bool periodic) {
+  std::int64_t directed = 0;
+  for (const Bond& bond : families.bonds) directed += rows_with_partner(lattice.rows, bond.row_offset, periodic);
+  return directed / 2;
+}
+
+std::int64_t largest_family(const Lattice& lattice, const BondFamilies& families, bool periodic) {
+  // A row in the middle of the body has most; short bodies have no row that is far from both ends.
+  const std::int64_t middle = lattice.rows / 2;
+  std::int64_t most = 0;
+  for (std::size_t c = 0; c + 1 < families.first.size(); ++c) {
+    most = std::max(most, static_cast<std::int64_t>(std::count_if(
+                              families.bonds.begin() + families.first[c],
+                              families.bonds.begin() + families.first[c + 1], [&](const Bond& bond) {
+                                const std::int64_t row = middle + bond.row_offset;
+                                return periodic || (row >= 0 && row < lattice.rows);
+                              })));
+  }
+  return most;
+}
+
+double stable_time_step(const Lattice& lattice, const BondFamilies& families, double bond_constant,
+                        double density) {
+  double stiffest = 0;  // sum_j V_j / |xi|, m2
+  for (std::size_t c = 0; c < lattice.section.size(); ++c) {
+    double sum = 0;
+    for (std::int64_t b = families.first[c]; b < families.first[c + 1]; ++b) {
+      const Bond& bond = families.bonds[b];
+      sum += lattice.volume(bond.other) / (bond.length * lattice.spacing);
+    }
+    stiffest = std::max(stiffest, sum);
+  }
+  return std::sqrt(2 * density / (bond_constant * stiffest));
+}
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,133 @@
+/// The inner loop: forces of one column's bonds on 16 of its rows at once (Eqs. 1, 2, 5).
+///
+/// Gather: every particle sums its whole family, in the family's fixed order, lane by lane; nothing is scattered.
+/// So the digits do not depend on threads, ranks or vector width, and as |xi + eta|^2 is computed from
+/// terms that change only their sign between the two ends, both ends break a bond in the same step.
+///
+/// Lengths are in spacings. With y = xi + eta:  t = eta . (xi + y) / |xi|^2  is (1 + s)^2 - 1 without cancellation.
+#pragma once
+
+#include <hwy/highway.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "parallel/partition.hpp"
+
+namespace rhexis::peridynamics {
+
+/// A bond as the kernel wants it; 32 bytes in single precision.
+template <class Real>
+struct BondConstants {
+  Real xi[3];
+  Real inverse_length2;  ///< 1 / |xi|^2
+  Real weight;           ///< V_j / (spacing^3 |xi|): force density is c spacing^3 sum weight g(t) y
+  Real volume;           ///< V_j / spacing^3
+  Real energy_weight;    ///< volume |xi|: energy density is c spacing^4 sum energy_weight s^2/2, halved
+  std::int32_t offset;   ///< of the partner in padded arrays, from the particle's own place
+};
+
+/// One block of one column: what the bonds read and the bits they may clear.
+template <class Real>
+struct BlockView {
+  const Real* u[3];  ///< padded displacement, at the block's first row
+  std::span<const BondConstants<Real>> bonds;
+  std::uint16_t* intact;  ///< one word per bond, bit k: bond of row k exists and is unbroken
+  Real breaking_t;
+};
+
+/// Sums over each row's family.
+template <class Real>
+struct BlockSums {
+  alignas(64) Real force[3][parallel::block_rows];
+  alignas(64) Real energy[parallel::block_rows];  ///< filled when observing only
+  int broken = 0;                                 ///< directed bonds that broke now
+};
+
+namespace detail {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The mask whose bits are `word` >> first_lane.
+template <class D>
+HWY_INLINE hn::Mask<D> lanes_of(D d, const std::uint16_t& word, std::size_t first_lane) {
+  if constexpr (hn::MaxLanes(D()) >= 8) {
+    return hn::LoadMaskBits(d, reinterpret_cast<const std::uint8_t*>(&word) + first_lane / 8);
+  } else {
+    const auto bits = static_cast<std::uint8_t>(word >> first_lane);
+    const std::uint8_t padded[8] = {bits};
+    return hn::LoadMaskBits(d, padded);
+  }
+}
+
+template <class D>
+HWY_INLINE std::uint16_t bits_of(D d, hn::Mask<D> mask, std::size_t first_lane) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  std::uint16_t word;
+  std::memcpy(&word, bytes, sizeof word);
+  return static_cast<std::uint16_t>(word << first_lane);
+}
+
+}  // namespace detail
+
+/// Breaks what is stretched too far, then adds the forces of what is left. With `observing` also the strain
+/// energy (half of each bond's, its other half belongs to the other end).
+template <class Law, bool observing, class Real>
+HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<Real, parallel::block_rows> d;
+  using V = hn::Vec<decltype(d)>;
+  const V breaking_t = hn::Set(d, block.breaking_t);
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
+    const V ux = hn::LoadU(d, block.u[0] + lane);
+    const V uy = hn::LoadU(d, block.u[1] + lane);
+    const V uz = hn::LoadU(d, block.u[2] + lane);
+    V fx = hn::Zero(d), fy = hn::Zero(d), fz = hn::Zero(d), energy = hn::Zero(d);
+    std::uint16_t* intact = block.intact;
+    for (const BondConstants<Real>& bond : block.bonds) {
+      std::uint16_t& word = *intact++;
+      if (word == 0) continue;
+      const auto present = detail::lanes_of(d, word, lane);
+      const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
+      const V eta_x = hn::Sub(hn::LoadU(d, block.u[0] + there), ux);
+      const V eta_y = hn::Sub(hn::LoadU(d, block.u[1] + there), uy);
+      const V eta_z = hn::Sub(hn::LoadU(d, block.u[2] + there), uz);
+      const V xi_x = hn::Set(d, bond.xi[0]);
+      const V xi_y = hn::Set(d, bond.xi[1]);
+      const V xi_z = hn::Set(d, bond.xi[2]);
+      const V y_x = hn::Add(eta_x, xi_x);
+      const V y_y = hn::Add(eta_y, xi_y);
+      const V y_z = hn::Add(eta_z, xi_z);
+      const V q = hn::MulAdd(
+          eta_z, hn::Add(y_z, xi_z),
+          hn::MulAdd(eta_y, hn::Add(y_y, xi_y), hn::Mul(eta_x, hn::Add(y_x, xi_x))));
+      const V t = hn::Mul(q, hn::Set(d, bond.inverse_length2));
+
+      const auto broken = hn::And(present, hn::Ge(t, breaking_t));
+      if (HWY_UNLIKELY(!hn::AllFalse(d, broken))) {
+        const std::uint16_t bits = detail::bits_of(d, broken, lane);
+        word = static_cast<std::uint16_t>(word & ~bits);
+        sums.broken += std::popcount(bits);
+      }
+      const auto pulling = hn::AndNot(broken, present);
+      const V g = Law::force_factor(d, t);
+      const V k = hn::IfThenElseZero(pulling, hn::Mul(g, hn::Set(d, bond.weight)));
+      fx = hn::MulAdd(k, y_x, fx);
+      fy = hn::MulAdd(k, y_y, fy);
+      fz = hn::MulAdd(k, y_z, fz);
+      if constexpr (observing) {
+        const V w = hn::Mul(Law::energy_factor(d, t), hn::Set(d, bond.energy_weight));
+        energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
+      }
+    }
+    hn::Store(fx, d, sums.force[0] + lane);
+    hn::Store(fy, d, sums.force[1] + lane);
+    hn::Store(fz, d, sums.force[2] + lane);
+    if constexpr (observing) hn::Store(hn::Mul(energy, hn::Set(d, Real(0.5))), d, sums.energy + lane);
+  }
+}
+
+}  // namespace rhexis::peridynamics

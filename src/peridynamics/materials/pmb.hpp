@@ -1,0 +1,64 @@
+/// Prototype microelastic brittle (PMB) law, Sec. 3.1, Eqs. (2)-(5); Silling & Askari 2005.
+///
+/// With t = (|xi + eta|^2 - |xi|^2) / |xi|^2 = (1 + s)^2 - 1, computed by the caller without cancellation, the
+/// pairwise force density of Eq. (2) is
+///
+///   f = c s (xi + eta)/|xi + eta| = (c / |xi|) g(t) (xi + eta),   g(t) = s / (1 + s) = 1 - 1/sqrt(1 + t),
+///
+/// and a bond breaks, Eq. (5), when s >= s0, that is t >= (1 + s0)^2 - 1: no root is needed to test it.
+#pragma once
+
+#include <hwy/highway.h>
+
+#include <numbers>
+#include <type_traits>
+
+namespace rhexis::peridynamics {
+
+struct Pmb {
+  /// Eq. (4): c = 6 E / (pi delta^4 (1 - 2 nu)) with nu = 1/4, N/m6; E in Pa, delta in m.
+  static double bond_constant(double young_modulus, double horizon) {
+    constexpr double poisson_ratio = 0.25;
+    const double h2 = horizon * horizon;
+    return 6 * young_modulus / (std::numbers::pi * h2 * h2 * (1 - 2 * poisson_ratio));
+  }
+
+  /// Eq. (5) in terms of t.
+  static double breaking_t(double critical_stretch) {
+    return critical_stretch * (2 + critical_stretch);
+  }
+
+  /// g(t), lane by lane. In single precision the root is approximate and then corrected to third order by its
+  /// own residual, in a form that keeps the relative accuracy of small t: g is within 2e-7 + 1e-11 / t.
+  template <class D, class V>
+  static HWY_INLINE V force_factor(D d, V t) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    using Real = hn::TFromD<D>;
+    const V one = hn::Set(d, Real{1});
+    // Particles on top of each other would divide by zero; their bond then has a large but finite force.
+    const V a = hn::Max(hn::Add(one, t), hn::Set(d, Real(1e-10)));
+    if constexpr (std::is_same_v<Real, double>) {
+      return hn::Div(t, hn::Add(a, hn::Sqrt(a)));
+    } else {
+      const V r = hn::ApproximateReciprocalSqrt(a);
+      const V g = hn::Sub(one, r);
+      // residual e = 1 - a r^2 = g (1 + r) - t r^2;  1/sqrt(a) = r (1 + e/2 + 3/8 e^2 + ...)
+      const V e = hn::MulSub(g, hn::Add(one, r), hn::Mul(t, hn::Mul(r, r)));
+      const V series = hn::MulAdd(e, hn::Set(d, Real(0.375)), hn::Set(d, Real(0.5)));
+      return hn::NegMulAdd(hn::Mul(e, r), series, g);
+    }
+  }
+
+  /// s^2 / 2: the micropotential is w = c |xi| s^2 / 2 (J/m6).
+  template <class D, class V>
+  static HWY_INLINE V energy_factor(D d, V t) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    using Real = hn::TFromD<D>;
+    const V one = hn::Set(d, Real{1});
+    const V root = hn::Sqrt(hn::Max(hn::Add(one, t), hn::Zero(d)));
+    const V s = hn::Div(t, hn::Add(one, root));
+    return hn::Mul(hn::Mul(s, s), hn::Set(d, Real(0.5)));
+  }
+};
+
+}  // namespace rhexis::peridynamics

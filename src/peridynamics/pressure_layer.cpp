@@ -1,0 +1,36 @@
+#include "peridynamics/pressure_layer.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace rhexis::peridynamics {
+
+PressureLayer make_pressure_layer(const Parameters& p, const Lattice& lattice) {
+  const CrossSection& s = lattice.section;
+  const double inner = p.inner_radius - 1e-9 * lattice.spacing;
+  const double outer = p.inner_radius + *p.layer_thickness + 1e-9 * lattice.spacing;
+  PressureLayer layer{std::vector<double>(s.size()), std::vector<double>(s.size())};
+  double loaded_area = 0;
+  for (std::size_t c = 0; c < s.size(); ++c) {
+    const double r = std::hypot(s.x[c], s.y[c]);
+    if (r < inner || r > outer) continue;
+    layer.bx[c] = s.x[c] / r;
+    layer.by[c] = s.y[c] / r;
+    loaded_area += s.area[c];
+  }
+  if (loaded_area == 0) {
+    throw InputError("no particle lies in the loaded layer; make it at least one spacing thick",
+                     "load.layer_thickness");
+  }
+  const double magnitude = p.layer == "paper" ? 1 / *p.layer_thickness
+                                              : 2 * std::numbers::pi * p.inner_radius / loaded_area;
+  for (std::size_t c = 0; c < s.size(); ++c) {
+    layer.bx[c] *= magnitude;
+    layer.by[c] *= magnitude;
+  }
+  return layer;
+}
+
+}  // namespace rhexis::peridynamics

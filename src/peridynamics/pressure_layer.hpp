@@ -1,0 +1,24 @@
+/// Eq. (8): the net pressure as a body force in a layer at the lumen.
+///
+/// The paper's layer r0 - delta <= r <= r0 lies in the lumen, where the wall has no particle; here it is
+/// r0 <= r <= r0 + thickness, inside the wall. The force is dead: it keeps its reference direction.
+#pragma once
+
+#include <vector>
+
+#include "peridynamics/cross_section.hpp"
+
+namespace rhexis::peridynamics {
+
+/// Force density per unit of pressure on each column's particles: b = P (bx, by), 1/m; zero outside the layer.
+struct PressureLayer {
+  std::vector<double> bx, by;
+
+  bool loads(std::size_t column) const { return bx[column] != 0 || by[column] != 0; }
+};
+
+/// `layer` "paper": |b| = P / thickness. "consistent": |b| equal over the layer, scaled so that the resultant
+/// sum |b| V is exactly P 2 pi r0 L. Throws InputError where the layer holds no particle.
+PressureLayer make_pressure_layer(const Parameters& p, const Lattice& lattice);
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,15 @@
+/// Course of the net pressure in time, before venting.
+#pragma once
+
+#include "peridynamics/parameters.hpp"
+
+namespace rhexis::peridynamics {
+
+/// P_net(t), Pa, by `load.schedule` of resolved parameters:
+///   step         P
+///   ramp         P t/T for t < T, then P
+///   smooth_ramp  P (1 - cos(pi t/T))/2 for t < T, then P
+///   table        linear between points, constant outside
+double scheduled_pressure(const Parameters& p, double time_s);
+
+}  // namespace rhexis::peridynamics

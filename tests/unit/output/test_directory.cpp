@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "output/directory.hpp"
+#include "temporary_directory.hpp"
+
+namespace rhexis {
+namespace {
+
+namespace fs = std::filesystem;
+using output::EarlierResults;
+using output::prepare_directory;
+using test::TemporaryDirectory;
+
+const parallel::Communicator world = parallel::Communicator::world();
+
+std::string refusal(const fs::path& directory) {
+  return test::message_of<InputError>([&] { prepare_directory(directory, EarlierResults::remove, world); });
+}
+
+/// Makes files on the root, before any rank goes on.
+void make_files(const fs::path& directory, const std::vector<std::string>& names) {
+  if (world.is_root()) {
+    for (const std::string& name : names) {
+      fs::create_directories((directory / name).parent_path());
+      std::ofstream(directory / name) << "old";
+    }
+  }
+  world.barrier();
+}
+
+TEST(Directory, IsMadeWithItsParentsAndParts) {
+  const TemporaryDirectory directory;
+  prepare_directory(directory / "a/b/", EarlierResults::remove, world);
+  EXPECT_TRUE(fs::is_directory(directory / "a/b/images"));
+  EXPECT_TRUE(fs::is_directory(directory / "a/b/checkpoints"));
+  EXPECT_FALSE(fs::exists(directory / "a/b/.rhexis-write-test"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory / "a/b"), {}), 2);
+}
+
+TEST(Directory, ResultsOfAnEarlierRunGoAndNothingElse) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> ours = {
+      "run.json",     "history.csv", "particles.xdmf",         "particles.h5", "network.h5",
+      "network.xdmf", "movie.mp4",   "images/vessel_0001.png", "run.json.part"};
+  const std::vector<std::string> others = {"notes.txt",           "other.h5",
+                                           "picture.png",         "images/notes.txt",
+                                           "images/deeper/a.png", "checkpoints/000100.h5"};
+  make_files(directory.path(), ours);
+  make_files(directory.path(), others);
+  prepare_directory(directory.path(), EarlierResults::keep, world);
+  for (const std::string& name : ours) EXPECT_TRUE(fs::exists(directory / name)) << name;
+  world.barrier();
+  prepare_directory(directory.path(), EarlierResults::remove, world);
+  for (const std::string& name : ours) EXPECT_FALSE(fs::exists(directory / name)) << name;
+  for (const std::string& name : others) EXPECT_TRUE(fs::exists(directory / name)) << name;
+}
+
+TEST(Directory, AFileInItsPlaceIsAnErrorOnAllRanks) {
+  const TemporaryDirectory directory;
+  make_files(directory.path(), {"file", "run/checkpoints"});
+  const std::string path = (directory / "file").string();
+  EXPECT_EQ(refusal(path), "cannot write results to " + path + ": it is a file, not a folder");
+  EXPECT_EQ(refusal(path + "/a/b"), "cannot write results to " + path + ": it is a file, not a folder");
+  EXPECT_NE(refusal(directory / "run").find("run/checkpoints: it is a file"), std::string::npos);
+  // The attempt made images/ before it met the file.
+  EXPECT_FALSE(fs::exists(directory / "run/images"));
+}
+
+TEST(Directory, ARefusalLeavesOldResultsAlone) {
+  const TemporaryDirectory directory;
+  make_files(directory.path(), {"run.json", "images"});
+  EXPECT_NE(refusal(directory.path()), "");
+  EXPECT_TRUE(fs::exists(directory / "run.json"));
+}
+
+// Where even the superuser cannot write.
+TEST(Directory, AFolderThatCannotBeMadeOrWrittenIsAnErrorOnAllRanks) {
+  EXPECT_NE(refusal("/proc/rhexis/a").find("cannot write results to /proc/rhexis: "), std::string::npos);
+  EXPECT_NE(refusal("/proc/self").find("cannot write results to /proc/self"), std::string::npos);
+  EXPECT_NE(refusal(""), "");
+}
+
+}  // namespace
+}  // namespace rhexis

@@ -1,0 +1,232 @@
+// The file is read back with HDF5's serial C API, as any other program would. All comparisons are exact: the
+// values of the synthetic source fit single precision.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+
+#include "core/error.hpp"
+#include "output/disk_space.hpp"
+#include "output/point_series.hpp"
+#include "synthetic_source.hpp"
+#include "temporary_directory.hpp"
+
+namespace rhexis {
+namespace {
+
+using output::PointSeries;
+using output::PointSeriesPlan;
+using parallel::Communicator;
+using test::SyntheticSource;
+using test::TemporaryDirectory;
+
+const Communicator world = Communicator::world();
+
+PointSeriesPlan plan_in(const std::filesystem::path& directory, std::vector<long> steps) {
+  return {.directory = directory,
+          .title = "test",
+          .version = "1.2.3",
+          .fields = {SyntheticSource::infos.begin(), SyntheticSource::infos.end()},
+          .steps = std::move(steps)};
+}
+
+/// A data set as doubles, empty if the file cannot be opened or has no such data set.
+std::vector<double> stored(const std::filesystem::path& path, const std::string& dataset) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t set = file < 0 ? -1 : H5Dopen2(file, dataset.c_str(), H5P_DEFAULT);
+  std::vector<double> values;
+  if (set >= 0) {
+    const hid_t space = H5Dget_space(set);
+    values.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    if (H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) values.clear();
+    H5Sclose(space);
+    H5Dclose(set);
+  }
+  if (file >= 0) H5Fclose(file);
+  return values;
+}
+
+std::string stored_text(const std::filesystem::path& path, const std::string& object,
+                        const std::string& name) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t attribute = H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t type = H5Aget_type(attribute);
+  std::string text(H5Tget_size(type), '\0');
+  H5Aread(attribute, type, text.data());
+  H5Tclose(type);
+  H5Aclose(attribute);
+  H5Fclose(file);
+  return text.c_str();
+}
+
+std::vector<double> expected(const std::string& field, int components, std::int64_t points, long step) {
+  std::vector<double> values;
+  for (std::int64_t id = 0; id < points; ++id) {
+    for (int c = 0; c < components; ++c) values.push_back(test::expected_value(field, c, id, step));
+  }
+  return values;
+}
+
+void expect_step(const std::filesystem::path& path, std::int64_t points, long step,
+                 const std::string& place) {
+  EXPECT_EQ(stored(path, "/position/" + place), expected("position", 3, points, step));
+  EXPECT_EQ(stored(path, "/displacement/" + place), expected("displacement", 3, points, step));
+  EXPECT_EQ(stored(path, "/damage/" + place), expected("damage", 1, points, step));
+}
+
+std::int64_t bytes_on_disk(const std::filesystem::path& path) {
+  struct stat status {};
+  stat(path.c_str(), &status);
+  return std::int64_t{status.st_blocks} * 512;
+}
+
+std::vector<int> column_divisions() {
+  return world.size() == 4 ? std::vector{1, 2, 4} : std::vector{1, world.size()};
+}
+
+TEST(PointSeries, HoldsEveryValueHoweverTheBodyIsDivided) {
+  for (const auto precision : {output::Precision::single_precision, output::Precision::double_precision}) {
+    for (const int parts : column_divisions()) {
+      const TemporaryDirectory directory;
+      SyntheticSource source(test::divided(9, 17, world, parts), 0);
+      PointSeriesPlan plan = plan_in(directory.path(), {0, 50});
+      plan.precision = precision;
+      {
+        PointSeries series(plan, source.layout(), world);
+        series.write_reference(source.positions());
+        series.write(source);
+        source.move_to(50);
+        series.write(source);
+      }
+      if (!world.is_root()) continue;
+      const auto file = directory / "particles.h5";
+      expect_step(file, 9 * 17, 0, "000000");
+      expect_step(file, 9 * 17, 50, "000050");
+      EXPECT_EQ(stored(file, "/reference_position"), expected("position", 3, 9 * 17, 0));
+      const std::vector<double> connectivity = stored(file, "/connectivity");
+      ASSERT_EQ(connectivity.size(), 9u * 17u);
+      for (std::size_t i = 0; i < connectivity.size(); ++i)
+        EXPECT_EQ(connectivity[i], static_cast<double>(i));
+      EXPECT_EQ(stored_text(file, "/displacement", "unit"), "m");
+      EXPECT_EQ(stored_text(file, "/damage", "unit"), "1");
+      EXPECT_EQ(stored_text(file, "/", "version"), "1.2.3");
+      EXPECT_EQ(stored_text(file, "/", "title"), "test");
+    }
+  }
+}
+
+TEST(PointSeries, FilesAreTheSameBytesOnAnyNumberOfRanks) {
+  const TemporaryDirectory directory, alone;
+  const auto write = [](const std::filesystem::path& where, const Communicator& ranks, int parts) {
+    SyntheticSource source(test::divided(9, 17, ranks, parts), 50);
+    PointSeries series(plan_in(where, {50}), source.layout(), ranks);
+    series.write_reference(source.positions());
+    series.write(source);
+  };
+  if (world.is_root()) write(alone.path(), Communicator(MPI_COMM_SELF), 1);
+  for (const int parts : column_divisions()) {
+    write(directory.path(), world, parts);
+    if (!world.is_root()) continue;
+    EXPECT_EQ(test::text_of(directory / "particles.xdmf"), test::text_of(alone / "particles.xdmf"));
+    EXPECT_TRUE(test::text_of(directory / "particles.h5") == test::text_of(alone / "particles.h5"));
+  }
+}
+
+TEST(PointSeries, ACopyTakenMidwayHoldsTheStepsSoFar) {
+  const TemporaryDirectory directory;
+  SyntheticSource source(test::divided(9, 17, world, 1), 0);
+  PointSeries series(plan_in(directory.path(), {0, 50, 100}), source.layout(), world);
+  for (const long step : {0, 50}) {
+    source.move_to(step);
+    series.write(source);
+    if (!world.is_root()) continue;
+    // What a crash at this moment leaves: the writer has closed nothing.
+    const auto copy = directory / "copy.h5";
+    std::filesystem::copy_file(directory / "particles.h5", copy,
+                               std::filesystem::copy_options::overwrite_existing);
+    expect_step(copy, 9 * 17, 0, "000000");
+    if (step == 50) expect_step(copy, 9 * 17, 50, "000050");
+    const std::string listed = test::text_of(directory / "particles.xdmf");
+    EXPECT_NE(listed.find("/damage/000000"), std::string::npos);
+    EXPECT_EQ(listed.find("/damage/000050") != std::string::npos, step == 50);
+    EXPECT_EQ(listed.find("/damage/000100"), std::string::npos);
+  }
+}
+
+TEST(PointSeries, StepsNotYetWrittenTakeNoDiskSpace) {
+  const TemporaryDirectory directory;
+  SyntheticSource source(test::divided(50, 200, world, 1), 0);
+  const std::int64_t bytes_of_step = 50 * 200 * 7 * 4;
+  std::vector<long> steps(100);
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = static_cast<long>(10 * i);
+  PointSeries series(plan_in(directory.path(), steps), source.layout(), world);
+  series.write(source);
+  if (!world.is_root()) return;
+  EXPECT_GT(static_cast<std::int64_t>(std::filesystem::file_size(directory / "particles.h5")),
+            100 * bytes_of_step);
+  EXPECT_LT(bytes_on_disk(directory / "particles.h5"), 3 * bytes_of_step);
+}
+
+TEST(PointSeries, AnEarlyEndHasAPlaceOfItsOwn) {
+  const TemporaryDirectory directory;
+  SyntheticSource source(test::divided(9, 17, world, 1), 0);
+  PointSeries series(plan_in(directory.path(), {0, 50, 100}), source.layout(), world);
+  for (const long step : {0, 50, 61, 73}) {
+    source.move_to(step);
+    series.write(source);
+  }
+  if (!world.is_root()) return;
+  expect_step(directory / "particles.h5", 9 * 17, 50, "000050");
+  expect_step(directory / "particles.h5", 9 * 17, 73, "unplanned");
+  const std::string listed = test::text_of(directory / "particles.xdmf");
+  EXPECT_NE(listed.find("<Time Value=\"0.073\"/>"), std::string::npos);
+  EXPECT_EQ(listed.find("<Time Value=\"0.061\"/>"), std::string::npos);
+}
+
+TEST(PointSeries, AFailedWriteIsAnErrorOnAllRanksAndLeavesEarlierSteps) {
+  const TemporaryDirectory directory;
+  SyntheticSource source(test::divided(9, 17, world, 1), 0);
+  PointSeries series(plan_in(directory.path(), {0, 50}), source.layout(), world);
+  series.write(source);
+  // Stands for a full disk, which a test cannot have: on rank 0 no write to a file succeeds.
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  const rlimit nothing{0, limit.rlim_max};
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (world.is_root()) setrlimit(RLIMIT_FSIZE, &nothing);
+  source.move_to(50);
+  const std::string message = test::message_of<RunError>([&] { series.write(source); });
+  setrlimit(RLIMIT_FSIZE, &limit);
+  EXPECT_NE(message.find((directory / "particles.").string()), std::string::npos) << message;
+  EXPECT_NE(message.find("cannot write"), std::string::npos) << message;
+  if (!world.is_root()) return;
+  expect_step(directory / "particles.h5", 9 * 17, 0, "000000");
+  EXPECT_EQ(test::text_of(directory / "particles.xdmf").find("000050"), std::string::npos);
+}
+
+TEST(PointSeries, AFolderThatIsNotThereIsAnErrorOnAllRanks) {
+  const TemporaryDirectory directory;
+  const SyntheticSource source(test::divided(9, 17, world, 1), 0);
+  const std::string message = test::message_of<RunError>(
+      [&] { const PointSeries series(plan_in(directory / "missing", {0}), source.layout(), world); });
+  EXPECT_NE(message.find("missing/particles.h5: cannot create the file"), std::string::npos) << message;
+}
+
+TEST(DiskSpace, WhatCannotBeReservedAsAWholeIsGivenBack) {
+  const TemporaryDirectory directory;
+  if (!world.is_root()) return;
+  const auto path = directory / "file";
+  std::ofstream(path) << "text";
+  const std::vector<output::ByteRange> possible = {{1 << 16, 1 << 20}};
+  const std::vector<output::ByteRange> too_much = {{1 << 16, 1 << 20}, {1 << 21, std::int64_t{1} << 61}};
+  const std::string message = test::message_of<RunError>([&] { output::reserve_space(path, too_much); });
+  EXPECT_NE(message.find(path.string() + ": cannot reserve disk space"), std::string::npos) << message;
+  EXPECT_LT(bytes_on_disk(path), 1 << 20);
+  output::reserve_space(path, possible);
+  EXPECT_EQ(test::text_of(path).substr(0, 4), "text");
+}
+
+}  // namespace
+}  // namespace rhexis

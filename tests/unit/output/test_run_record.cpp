@@ -1,0 +1,94 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "output/run_record.hpp"
+#include "temporary_directory.hpp"
+
+namespace rhexis {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using output::Performance;
+using output::Results;
+using output::RunRecord;
+
+const parallel::Communicator world = parallel::Communicator::world();
+
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return keys;
+}
+
+TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
+  const test::TemporaryDirectory directory;
+  RunRecord record(directory / "run.json", "0.1.0", "abc", {{"vessel", {{"length", 1.0}}}}, world);
+  const Json json = Json::parse(test::text_of(directory / "run.json"));
+  EXPECT_EQ(keys_of(json),
+            (std::vector<std::string>{"version", "commit", "input", "status", "results", "performance"}));
+  EXPECT_EQ(json["version"], "0.1.0");
+  EXPECT_EQ(json["commit"], "abc");
+  EXPECT_EQ(json["input"]["vessel"]["length"], 1.0);
+  EXPECT_EQ(json["status"], "running");
+  EXPECT_EQ(keys_of(json["results"]),
+            (std::vector<std::string>{"particles", "bonds", "family_max", "time_step_s", "stable_time_step_s",
+                                      "steps", "simulated_s", "first_bond_break_s", "rupture_onset_s",
+                                      "max_displacement_m", "max_damage", "rupture_length_m", "energy_drift",
+                                      "network"}));
+  EXPECT_EQ(keys_of(json["results"]["network"]),
+            (std::vector<std::string>{"vessels", "junctions", "inflow_m3_s", "max_imbalance", "volume_m3",
+                                      "solver", "iterations"}));
+  EXPECT_EQ(keys_of(json["performance"]),
+            (std::vector<std::string>{"ranks", "threads", "wall_s", "solve_s", "insitu_s", "output_s",
+                                      "bond_evaluations", "bond_evaluations_per_s", "flop", "peak_rss_bytes",
+                                      "node_hours"}));
+  for (const Json& part : {json["results"], json["results"]["network"], json["performance"]}) {
+    for (const auto& item : part.items()) EXPECT_TRUE(item.value().is_null() || item.key() == "network");
+  }
+}
+
+TEST(RunRecord, TellsHowTheRunEnded) {
+  const test::TemporaryDirectory directory;
+  RunRecord record(directory / "run.json", "0.1.0", "abc", Json::object(), world);
+  Results results{.particles = 54800, .max_damage = 0.1, .energy_drift = std::nan("")};
+  results.network.vessels = 34'000'000'000;
+  results.network.solver = "tree";
+  record.complete(results, {.ranks = world.size(), .wall_s = 1.5});
+  Json json = Json::parse(test::text_of(directory / "run.json"));
+  EXPECT_EQ(json["status"], "completed");
+  EXPECT_EQ(json["results"]["particles"], 54800);
+  EXPECT_EQ(json["results"]["max_damage"], 0.1);
+  EXPECT_TRUE(json["results"]["energy_drift"].is_null());
+  EXPECT_EQ(json["results"]["network"]["vessels"], 34'000'000'000);
+  EXPECT_EQ(json["results"]["network"]["solver"], "tree");
+  EXPECT_EQ(json["performance"]["ranks"], world.size());
+  EXPECT_EQ(json["performance"]["wall_s"], 1.5);
+  world.barrier();
+
+  record.fail("disk full at \xff", {}, {});
+  json = Json::parse(test::text_of(directory / "run.json"));
+  EXPECT_EQ(json["status"], "failed: disk full at \xEF\xBF\xBD");
+  EXPECT_FALSE(std::filesystem::exists(directory / "run.json.part"));
+}
+
+TEST(RunRecord, AFolderThatIsNotThereIsARunErrorOnAllRanks) {
+  const test::TemporaryDirectory directory;
+  const std::string message = test::message_of<RunError>(
+      [&] { RunRecord(directory / "no/run.json", "", "", Json::object(), world); });
+  EXPECT_NE(message.find("no/run.json: cannot write the file"), std::string::npos) << message;
+}
+
+TEST(PeakResidentBytes, GrowsWithWhatIsTouched) {
+  const std::int64_t before = output::peak_resident_bytes();
+  const std::vector<char> touched(64 << 20, 1);
+  const std::int64_t grown = output::peak_resident_bytes() - before;
+  // Memory held earlier and given back may serve a part of it.
+  EXPECT_GT(before, 1 << 20);
+  EXPECT_GT(grown, 32 << 20);
+  EXPECT_EQ(touched.back(), 1);
+}
+
+}  // namespace
+}  // namespace rhexis
