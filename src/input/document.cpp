@@ -44,14 +44,15 @@ std::optional<Value> to_value(const toml::node& node) {
 std::string reason(const toml::parse_error& error) {
   const std::string text(error.description());
   if (text.find("utf-8") != std::string::npos) return "the file is not UTF-8 text";
-  const auto detail = text.find(": ");
-  const std::string brief = text.starts_with("Error while parsing ") && detail != std::string::npos
-                                ? text.substr(detail + 2)
-                                : text;
+  const auto colon = text.find(": ");
+  const std::string context = text.substr(0, colon == std::string::npos ? 0 : colon);
+  const std::string brief = context.empty() ? text : text.substr(colon + 2);
   if (brief.starts_with("cannot redefine"))
     return fmt::format("defined twice: {}; each section and each key may appear once", brief);
-  return fmt::format("not valid TOML: {}; a text, or a number with a unit, goes in quotes, as in \"1.5 mm\"",
-                     brief);
+  const bool in_a_value =
+      context.ends_with("key-value pair") || context.ends_with("value") || context.ends_with("boolean");
+  return fmt::format("not valid TOML: {}{}", brief,
+                     in_a_value ? "; a text, or a number with a unit, goes in quotes, as in \"1.5 mm\"" : "");
 }
 
 /// Flattens the tables of a file into sections and entries.
@@ -85,11 +86,15 @@ class Flattener {
     throw InputError(fmt::format("{}:{}: {}", document_.file, key.source().begin.line, problem));
   }
 
-  /// A dot inside a quoted name would make "section.name" ambiguous.
+  /// Quoted names may hold anything; a dot would make "section.name" ambiguous, a line break spoil the
+  /// messages.
   void check_name(const std::string& name, const toml::key& key) const {
-    if (name.find('.') != std::string::npos)
-      fail(key, fmt::format("the name {} has a dot in quotes; write [section] and below it name = value",
-                            in_quotes(name)));
+    constexpr std::string_view usual = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    if (name.empty() || name.find_first_not_of(usual) != std::string::npos)
+      fail(key,
+           fmt::format("the name {} is not one of letters, digits, _ and -; write [section] and below it "
+                       "name = value",
+                       in_quotes(name)));
   }
 
   void add_entry(std::string name, const toml::key& key, const toml::node& node) {

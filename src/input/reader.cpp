@@ -42,7 +42,7 @@ void check_sections(const Document& document, const ParameterList& parameters) {
 
 [[noreturn]] void refuse_missing(const Document& document, const Parameter& parameter) {
   const std::string allowed = describe_allowed(parameter);
-  throw InputError(fmt::format("{}: {} is missing; under [{}] write for example {} = {} ({}{}). It is: {}",
+  throw InputError(fmt::format("{}: {} is missing; under [{}] write for example {} = {} ({}{}). Meaning: {}",
                                document.file, parameter.key, section_of(parameter.key),
                                name_of(parameter.key), example(parameter), describe_type(parameter),
                                allowed.empty() ? "" : "; allowed: " + allowed, parameter.meaning),

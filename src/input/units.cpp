@@ -117,7 +117,7 @@ std::string_view trimmed(std::string_view text) {
 /// exponents, which follow their unit without a blank, only the 1 of "1/s" is let through.
 bool has_second_number(std::string_view unit) {
   for (std::size_t i = 0; i < unit.size(); ++i) {
-    if (i > 0 && unit[i - 1] != ' ') continue;
+    if (i > 0 && !std::isspace(static_cast<unsigned char>(unit[i - 1]))) continue;
     const auto token = unit.substr(i);
     const auto digit = token.find_first_not_of("+-.");
     const bool number =

@@ -88,7 +88,8 @@ std::string wrapped(std::string_view text, std::size_t width, std::size_t indent
   std::size_t column = 0;
   for (std::string word; words >> word;) {
     if (column > 0 && column + 1 + word.size() > width - indent) {
-      result += "\n" + std::string(indent, ' ');
+      result += '\n';
+      result.append(indent, ' ');
       column = 0;
     } else if (column > 0) {
       result += ' ';

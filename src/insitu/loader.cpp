@@ -20,10 +20,12 @@ std::filesystem::path plugin_path() {
 void* open_plugin(const Settings& settings, std::string& reason) {
   const auto path = plugin_path();
   if (!std::filesystem::exists(path)) {
-    reason = "not available: no " + path.string() + " (built only where ParaView's development files are found)";
+    reason =
+        "not available: no " + path.string() + " (built only where ParaView's development files are found)";
     return nullptr;
   }
-  // OSMesa first: whoever comes first in the global scope provides the gl... functions that VTK calls directly.
+  // OSMesa first: whoever comes first in the global scope provides the gl... functions that VTK calls
+  // directly.
   if (settings.renderer == Renderer::automatic || settings.renderer == Renderer::osmesa) open_osmesa();
   // Global, because Python's extension modules look for Python and VTK there.
   void* plugin = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);

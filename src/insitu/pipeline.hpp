@@ -1,7 +1,8 @@
-/// Pictures while the program runs: what the solver sees of ParaView Catalyst. Nothing here needs ParaView, which is
-/// loaded (as the plugin librhexis_catalyst.so) only when a pipeline is asked for.
+/// Pictures while the program runs: what the solver sees of ParaView Catalyst. Nothing here needs ParaView,
+/// which is loaded (as the plugin librhexis_catalyst.so) only when a pipeline is asked for.
 ///
-///     auto pipeline = insitu::load_pipeline({.scripts = {"/home/me/vessel.py"}, .image_directory = "/tmp/images"},
+///     auto pipeline = insitu::load_pipeline({.scripts = {"/home/me/vessel.py"}, .image_directory =
+///     "/tmp/images"},
 ///                                           parallel::Communicator::world());
 ///     for (...) {                                       // every rank calls all of these, in the same order
 ///       if (pipeline->wants(source.step(), source.time_s())) pipeline->process(source);
@@ -19,13 +20,14 @@
 
 namespace rhexis::insitu {
 
-/// Who draws. `automatic` takes the first that works of OSMesa (in memory, by the processor), EGL (no display, by a
-/// graphics card where there is one) and X11 (needs DISPLAY).
+/// Who draws. `automatic` takes the first that works of OSMesa (in memory, by the processor), EGL (no
+/// display, by a graphics card where there is one) and X11 (needs DISPLAY).
 enum class Renderer { automatic, osmesa, egl, x11 };
 
 struct Settings {
-  std::vector<std::string> scripts;  ///< absolute paths of Catalyst V2 Python scripts (.py or package folders)
-  std::string image_directory;       ///< every extract of every script lands here; made if missing
+  std::vector<std::string>
+      scripts;                  ///< absolute paths of Catalyst V2 Python scripts (.py or package folders)
+  std::string image_directory;  ///< every extract of every script lands here; made if missing
   Renderer renderer = Renderer::automatic;
 };
 
@@ -35,8 +37,9 @@ struct NotAvailable : RunError {
 };
 
 /// Catalyst scripts at work on one body, which they know as the channel `particles`. A script says which
-/// fields it needs by a line such as `fields = ["displacement", "damage"]` (literal strings, outside any function);
-/// without the line it gets all. All calls are collective, and what they throw they throw on every rank.
+/// fields it needs by a line such as `fields = ["displacement", "damage"]` (literal strings, outside any
+/// function); without the line it gets all. All calls are collective, and what they throw they throw on every
+/// rank.
 class Pipeline {
  public:
   Pipeline() = default;
@@ -51,19 +54,20 @@ class Pipeline {
   /// until then the answer is yes.
   virtual bool wants(long step, double time_s) = 0;
 
-  /// Runs the scripts that want this step. The source's memory is read, not copied, and not touched after the return.
-  /// Throws RunError, naming script, line and reason, if a script fails on any rank. Should ranks get stuck because
-  /// a script raised on one while the others wait for it inside ParaView, the program is ended
+  /// Runs the scripts that want this step. The source's memory is read, not copied, and not touched after the
+  /// return. Throws RunError, naming script, line and reason, if a script fails on any rank. Should ranks get
+  /// stuck because a script raised on one while the others wait for it inside ParaView, the program is ended
   /// (MPI_Abort, status 3) after RHEXIS_SCRIPT_TIMEOUT seconds (environment variable, default 60).
   virtual void process(PointSource& source) = 0;
 
-  /// Ends scripts and ParaView; no other call may follow. A process can load one pipeline only.
+  /// Ends scripts and ParaView (as the destructor does, which however cannot tell that a script failed in
+  /// doing so); no other call may follow, and MPI must not end before. A process can load one pipeline only.
   virtual void finish() = 0;
 };
 
-/// Loads the plugin and checks the scripts (there? syntax? fields?) without running them. The plugin is looked for in
-/// the folder RHEXIS_PLUGIN_DIR (environment variable) or else in `../lib` beside the program's folder.
-/// Throws NotAvailable without ParaView, RunError for a bad script.
+/// Loads the plugin and checks the scripts (there? syntax? fields?) without running them. The plugin is
+/// looked for in the folder RHEXIS_PLUGIN_DIR (environment variable) or else in `../lib` beside the program's
+/// folder. Throws NotAvailable without ParaView, RunError for a bad script.
 std::unique_ptr<Pipeline> load_pipeline(const Settings& settings, parallel::Communicator communicator);
 
 /// Whether the plugin's file is in its place; costs nothing.

@@ -94,8 +94,8 @@ void CheckpointWriter::write(const std::string& name, const std::string& text) {
 }
 
 void CheckpointWriter::close() {
-  together<RunError>(communicator_, [&] { file_->flush(); });
   together<RunError>(communicator_, [&] { file_->close(); });
+  together<RunError>(communicator_, [&] { sync_to_disk(temporary_); });
   on_root<RunError>(communicator_, [&] { std::filesystem::rename(temporary_, path_); });
   file_.reset();
 }

@@ -6,19 +6,22 @@
 
 #include <cerrno>
 #include <cstring>
-#include <string>
 
 #include "core/error.hpp"
 
 namespace rhexis::output {
 namespace {
 
+[[noreturn]] void fail(const std::filesystem::path& path, const char* doing, int error) {
+  throw RunError(fmt::format("{}: cannot {}: {}", path.string(), doing, std::strerror(error)));
+}
+
 struct OpenFile {
   explicit OpenFile(const std::filesystem::path& path)
-      : descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC)) {}
-  ~OpenFile() {
-    if (descriptor >= 0) close(descriptor);
+      : descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
+    if (descriptor < 0) fail(path, "open the file", errno);
   }
+  ~OpenFile() { close(descriptor); }
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
   int descriptor;
@@ -28,17 +31,20 @@ struct OpenFile {
 
 void reserve_space(const std::filesystem::path& path, std::span<const ByteRange> ranges) {
   const OpenFile file(path);
-  bool reserved = file.descriptor >= 0;
-  for (std::size_t i = 0; reserved && i < ranges.size(); ++i) {
-    reserved = ranges[i].count == 0 || fallocate(file.descriptor, 0, ranges[i].offset, ranges[i].count) == 0;
+  int error = 0;
+  for (std::size_t i = 0; error == 0 && i < ranges.size(); ++i) {
+    if (ranges[i].count > 0) error = posix_fallocate(file.descriptor, ranges[i].offset, ranges[i].count);
   }
-  if (reserved || errno == EOPNOTSUPP) return;
-
-  const std::string reason = std::strerror(errno);
+  if (error == 0) return;
   for (const ByteRange& range : ranges) {
     fallocate(file.descriptor, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, range.offset, range.count);
   }
-  throw RunError(fmt::format("{}: cannot reserve disk space: {}", path.string(), reason));
+  fail(path, "reserve disk space", error);
+}
+
+void sync_to_disk(const std::filesystem::path& path) {
+  const OpenFile file(path);
+  if (fsync(file.descriptor) != 0) fail(path, "write the file", errno);
 }
 
 }  // namespace rhexis::output

@@ -1,4 +1,4 @@
-/// Disk space that is had before it is needed.
+/// Disk space that is had before it is needed, and data that are known to be on disk.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,16 @@ struct ByteRange {
   std::int64_t offset = 0, count = 0;
 };
 
-/// Has the file system reserve space for these parts of an existing file, whose content is not changed.
-/// Throws RunError if the disk is full (then what was reserved here is given back: the space serves the last
-/// words of the run) or the file cannot be written. Does nothing where the file system cannot reserve. Local
-/// to the calling rank.
+/// Reserves disk space for these parts of an existing file; their content stays. Throws RunError if the disk
+/// or a quota is full (what the parts held is then given back: a step that cannot be stored leaves its space
+/// to the last words of the run) or if the file cannot be written. Local to the calling rank.
 ///
-/// Why not wait for the write to fail: MPI libraries report a disk that fills up during a collective write on
-/// some ranks, late, without the reason, or, when the last bytes only are missing, not at all.
+/// Why not wait for the write to fail: Open MPI's collective writes drop this error on three ranks and more,
+/// and on fewer ranks report it without the reason.
 void reserve_space(const std::filesystem::path& path, std::span<const ByteRange> ranges);
+
+/// Waits until all that this process wrote to the file is on disk. Throws RunError if it cannot be. Local to
+/// the calling rank, unlike HDF5's flush, which waits for ever if another rank cannot flush.
+void sync_to_disk(const std::filesystem::path& path);
 
 }  // namespace rhexis::output

@@ -22,7 +22,7 @@ struct HistoryRow {
   double strain_J = 0;
   double external_work_J = 0;
   double rupture_length_m = 0;
-  std::optional<double> leak_m3_s;  ///< empty cell where nothing leaks into a network
+  std::optional<double> leak_m3_s = {};  ///< empty cell where nothing leaks into a network
 };
 
 /// Appends rows, each on disk before the next step begins. Collective; only the root touches the file.

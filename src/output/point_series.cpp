@@ -53,6 +53,7 @@ PointSeries::PointSeries(const PointSeriesPlan& plan, const PointLayout& layout,
   });
   together<RunError>(communicator_, [&] { lay_out(plan); });
   together<RunError>(communicator_, [&] { file_->flush(); });
+  reserve({"/connectivity", "/reference_position"});
   together<RunError>(communicator_, [&] { write_connectivity(); });
 }
 
@@ -114,24 +115,25 @@ void PointSeries::write(PointSource& source) {
   const std::string place = planned == planned_places_.end() ? unplanned_place : planned->second;
   if (std::erase_if(listed_, [&](const ListedStep& step) { return step.place == place; }) > 0) write_xdmf();
 
-  reserve(place);
+  std::vector<std::string> datasets;
+  for (const StoredField& field : fields_) datasets.push_back(dataset_name(field.name, place));
+  reserve(datasets);
   for (const StoredField& field : fields_) {
     together<RunError>(communicator_, [&] {
       const FieldView view = field.name == position ? source.positions() : source.field(field.name);
       write_values(dataset_name(field.name, place), view, field.components);
     });
   }
-  together<RunError>(communicator_, [&] { file_->flush(); });
+  together<RunError>(communicator_, [&] { sync_to_disk(file_->path()); });
 
   listed_.push_back({place, xdmf_grid(source, place)});
   write_xdmf();
 }
 
-void PointSeries::reserve(const std::string& place) {
+void PointSeries::reserve(const std::vector<std::string>& datasets) {
   std::vector<ByteRange> ranges;
   together<RunError>(communicator_, [&] {
-    for (const StoredField& field : fields_)
-      ranges.push_back(file_->bytes_of(dataset_name(field.name, place)));
+    for (const std::string& dataset : datasets) ranges.push_back(file_->bytes_of(dataset));
   });
   on_root<RunError>(communicator_, [&] { reserve_space(file_->path(), ranges); });
 }

@@ -68,7 +68,7 @@ class PointSeries {
   void lay_out(const PointSeriesPlan& plan);
   void write_connectivity();
   void write_values(const std::string& dataset, const FieldView& view, int components);
-  void reserve(const std::string& place);
+  void reserve(const std::vector<std::string>& datasets);
   std::string xdmf_grid(const PointSource& source, const std::string& place) const;
   void write_xdmf() const;
 

@@ -41,9 +41,11 @@ void to_json(Json& json, const Results& results) {
                        {"simulated_s", or_null(results.simulated_s)},
                        {"first_bond_break_s", or_null(results.first_bond_break_s)},
                        {"rupture_onset_s", or_null(results.rupture_onset_s)},
+                       {"max_displacement_at_onset_m", or_null(results.max_displacement_at_onset_m)},
                        {"max_displacement_m", or_null(results.max_displacement_m)},
                        {"max_damage", or_null(results.max_damage)},
                        {"rupture_length_m", or_null(results.rupture_length_m)},
+                       {"opening_area_m2", or_null(results.opening_area_m2)},
                        {"energy_drift", or_null(results.energy_drift)},
                        {"network", results.network}});
 }

@@ -13,41 +13,43 @@ namespace rhexis::output {
 
 /// The `results.network` part; a member without a value is written as null.
 struct NetworkResults {
-  std::optional<std::int64_t> vessels, junctions;
-  std::optional<double> inflow_m3_s;
-  std::optional<double> max_imbalance;  ///< relative to the inflow
-  std::optional<double> volume_m3;
-  std::optional<std::string> solver;
-  std::optional<std::int64_t> iterations;
+  std::optional<std::int64_t> vessels = {}, junctions = {};
+  std::optional<double> inflow_m3_s = {};
+  std::optional<double> max_imbalance = {};  ///< relative to the inflow
+  std::optional<double> volume_m3 = {};
+  std::optional<std::string> solver = {};
+  std::optional<std::int64_t> iterations = {};
 };
 
 /// The `results` part; a member without a value is written as null.
 struct Results {
-  std::optional<std::int64_t> particles;
-  std::optional<std::int64_t> bonds;  ///< undirected
-  std::optional<std::int64_t> family_max;
-  std::optional<double> time_step_s, stable_time_step_s;
-  std::optional<std::int64_t> steps;
-  std::optional<double> simulated_s;
-  std::optional<double> first_bond_break_s;
-  std::optional<double> rupture_onset_s;  ///< first time that some particle's damage >= 0.2
-  std::optional<double> max_displacement_m, max_damage;
-  std::optional<double> rupture_length_m;  ///< axial extent of damage >= 0.2
-  std::optional<double> energy_drift;
-  NetworkResults network;
+  std::optional<std::int64_t> particles = {};
+  std::optional<std::int64_t> bonds = {};  ///< undirected
+  std::optional<std::int64_t> family_max = {};
+  std::optional<double> time_step_s = {}, stable_time_step_s = {};
+  std::optional<std::int64_t> steps = {};
+  std::optional<double> simulated_s = {};
+  std::optional<double> first_bond_break_s = {};
+  std::optional<double> rupture_onset_s = {};  ///< first time that some particle's damage >= 0.2
+  std::optional<double> max_displacement_at_onset_m = {};
+  std::optional<double> max_displacement_m = {}, max_damage = {};
+  std::optional<double> rupture_length_m = {};  ///< axial extent of damage >= 0.2
+  std::optional<double> opening_area_m2 = {};   ///< of the holes in the wall, at the end
+  std::optional<double> energy_drift = {};
+  NetworkResults network = {};
 };
 
 /// The `performance` part; a member without a value is written as null.
 struct Performance {
-  std::optional<std::int64_t> ranks, threads;
-  std::optional<double> wall_s;
-  std::optional<double> solve_s;  ///< the time loop less output and in situ
-  std::optional<double> insitu_s, output_s;
-  std::optional<std::int64_t> bond_evaluations;  ///< directed
-  std::optional<double> bond_evaluations_per_s;
-  std::optional<double> flop;
-  std::optional<std::int64_t> peak_rss_bytes;  ///< sum over all ranks
-  std::optional<double> node_hours;
+  std::optional<std::int64_t> ranks = {}, threads = {};
+  std::optional<double> wall_s = {};
+  std::optional<double> solve_s = {};  ///< the time loop less output and in situ
+  std::optional<double> insitu_s = {}, output_s = {};
+  std::optional<std::int64_t> bond_evaluations = {};  ///< directed
+  std::optional<double> bond_evaluations_per_s = {};
+  std::optional<double> flop = {};
+  std::optional<std::int64_t> peak_rss_bytes = {};  ///< sum over all ranks
+  std::optional<double> node_hours = {};
 };
 
 void to_json(nlohmann::ordered_json& json, const NetworkResults& network);

@@ -2,6 +2,8 @@
 
 #include <omp.h>
 
+#include <cstdlib>
+
 namespace rhexis::parallel {
 namespace {
 
@@ -47,6 +49,19 @@ int Communicator::size() const {
 }
 
 void Communicator::barrier() const { MPI_Barrier(handle_); }
+
+int Communicator::node_count() const {
+  MPI_Comm node;
+  MPI_Comm_split_type(handle_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  const bool leads = Communicator(node).is_root();
+  MPI_Comm_free(&node);
+  return static_cast<int>(all_reduce(std::int64_t{leads}, Reduce::sum));
+}
+
+void Communicator::abort(int status) const {
+  MPI_Abort(handle_, status);
+  std::abort();
+}
 
 void Communicator::all_reduce(std::span<double> values, Reduce operation) const {
   reduce_in_place(handle_, values, MPI_DOUBLE, operation);

@@ -31,6 +31,10 @@ class Communicator {
   int size() const;
   bool is_root() const { return rank() == 0; }
   void barrier() const;
+  /// Machines that the ranks run on. Collective.
+  int node_count() const;
+  /// Ends the program on all ranks at once with `status`: for a failure that the others cannot learn of.
+  [[noreturn]] void abort(int status) const;
   MPI_Comm handle() const { return handle_; }
 
   /// Element-wise over all ranks, in place, result on every rank. All but the sum of doubles are exact and so

@@ -95,6 +95,7 @@ class ColumnBody final : public Body {
   const Observation& observe(double pressure) override;
   Totals totals() const override;
   double max_displacement() const override;
+  BondWordLayout bond_word_layout() const override;
   Saved save() const override;
   void restore(const Saved& saved) override;
 
@@ -523,6 +524,19 @@ double ColumnBody<Law, Real>::max_displacement() const {
     largest = std::max(largest, u_[0][i] * u_[0][i] + u_[1][i] * u_[1][i] + u_[2][i] * u_[2][i]);
   }
   return std::sqrt(comm_.all_reduce(largest, parallel::Reduce::max));
+}
+
+template <class Law, class Real>
+BondWordLayout ColumnBody<Law, Real>::bond_word_layout() const {
+  const PointLayout& l = domain_.layout();
+  const auto& first = setup_.families.first;
+  const std::int64_t row = first[static_cast<std::size_t>(l.first_column)];
+  return {first.back(),
+          (l.rows + block_rows - 1) / block_rows,
+          row,
+          first[static_cast<std::size_t>(l.first_column + l.column_count)] - row,
+          l.first_row / block_rows,
+          domain_.blocks()};
 }
 
 template <class Law, class Real>

@@ -46,6 +46,14 @@ struct Totals {
   double rupture_length = 0;      ///< m, axial extent of damage >= rupture_damage, reference rows
 };
 
+/// This rank's part of the table of bond words of the whole body: a row per bond of each column's family, a
+/// word per 16 particles along the axis.
+struct BondWordLayout {
+  std::int64_t rows = 0, words = 0;  ///< of the whole body
+  std::int64_t first_row = 0, row_count = 0;
+  std::int64_t first_word = 0, word_count = 0;
+};
+
 class Body {
  public:
   virtual ~Body() = default;
@@ -76,7 +84,7 @@ class Body {
   virtual std::int64_t bond_evaluations() const = 0;
 
   /// All that a restart needs beside displacement: leapfrog velocity (m/s), bond words and the work done so far.
-  /// Words are stored [local column's bond][local block]; see `bond_rows`.
+  /// Words stand row by row as `bond_word_layout` says.
   struct Saved {
     std::array<std::vector<double>, 3> displacement, leapfrog_velocity;
     std::vector<std::uint16_t> words;
@@ -84,6 +92,7 @@ class Body {
     double external_work = 0;
     std::array<double, 3> frame{};
   };
+  virtual BondWordLayout bond_word_layout() const = 0;
   virtual Saved save() const = 0;
   virtual void restore(const Saved& saved) = 0;
 };

@@ -46,6 +46,10 @@ struct BlockSums {
   int broken = 0;                                 ///< directed bonds that broke now
 };
 
+/// Floating-point operations of one bond when it pulls: 9 for eta, y and xi + y, 6 for t, 12 for g(t), 1 for k,
+/// 6 for the force (a fused multiply-add counts as two, the approximate root as one).
+inline constexpr double flop_per_bond = 34;
+
 namespace detail {
 
 namespace hn = hwy::HWY_NAMESPACE;

@@ -22,7 +22,9 @@ void run(const rhexis::insitu::Settings& settings, int frames, rhexis::parallel:
   const double start = now_s();
   const auto pipeline = rhexis::insitu::load_pipeline(settings, world);
   if (world.is_root()) {
-    std::printf(R"({"description": "%s", "seconds": %.3f})" "\n", pipeline->description().c_str(), now_s() - start);
+    std::printf(R"({"description": "%s", "seconds": %.3f})"
+                "\n",
+                pipeline->description().c_str(), now_s() - start);
   }
   rhexis::test::SyntheticVessel vessel(world.rank(), world.size());
   for (int frame = 0; frame < frames; ++frame) {
@@ -31,7 +33,9 @@ void run(const rhexis::insitu::Settings& settings, int frames, rhexis::parallel:
     const bool wanted = pipeline->wants(vessel.step(), vessel.time_s());
     if (wanted) pipeline->process(vessel);
     if (world.is_root()) {
-      std::printf(R"({"step": %ld, "wanted": %d, "seconds": %.3f})" "\n", vessel.step(), wanted ? 1 : 0, now_s() - begin);
+      std::printf(R"({"step": %ld, "wanted": %d, "seconds": %.3f})"
+                  "\n",
+                  vessel.step(), wanted ? 1 : 0, now_s() - begin);
     }
   }
   pipeline->finish();

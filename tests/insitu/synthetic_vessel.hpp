@@ -14,17 +14,19 @@
 
 namespace rhexis::test {
 
-/// A tube, 10 mm long, radii 1.5 and 2 mm, at 0.1 mm spacing (548 columns x 100 rows), cut into blocks of rows.
+/// A tube, 10 mm long, radii 1.5 and 2 mm, at 0.1 mm spacing (548 columns x 100 rows), cut into blocks of
+/// rows.
 class SyntheticVessel : public PointSource {
  public:
   static constexpr double spacing = 1e-4;
   static constexpr int rows = 100;
 
   SyntheticVessel(int rank, int ranks) {
-    for (int i = -21; i <= 21; ++i) {
-      for (int j = -21; j <= 21; ++j) {
-        const double radius = std::hypot(i * spacing, j * spacing);
-        if (radius >= 1.5e-3 && radius <= 2e-3) columns_.push_back({i * spacing, j * spacing});
+    for (int i = -20; i < 20; ++i) {
+      for (int j = -20; j < 20; ++j) {
+        const double x = (i + 0.5) * spacing, y = (j + 0.5) * spacing;
+        const double radius = std::hypot(x, y);
+        if (radius >= 1.5e-3 && radius <= 2e-3) columns_.push_back({x, y});
       }
     }
     layout_.columns = layout_.column_count = static_cast<std::int64_t>(columns_.size());
@@ -47,7 +49,8 @@ class SyntheticVessel : public PointSource {
   std::vector<Annotation> annotations() const override { return {{"pressure", "Pa", 238e3}}; }
 
   FieldView positions() override {
-    return view({"position", "m", 3}, [this](const Particle& p, int c) { return p.reference[index(c)] + move(p)[index(c)]; });
+    return view({"position", "m", 3},
+                [this](const Particle& p, int c) { return p.reference[index(c)] + move(p)[index(c)]; });
   }
 
   FieldView field(std::string_view name) override {

@@ -15,7 +15,8 @@ Agreement::Agreement(parallel::Communicator communicator) : communicator_(commun
 std::string Agreement::agree(const std::string& text) {
   await_others(text);
   std::string mine = text;
-  if (!mine.empty() && communicator_.size() > 1) mine += " (on rank " + std::to_string(communicator_.rank()) + ")";
+  if (!mine.empty() && communicator_.size() > 1)
+    mine += " (on rank " + std::to_string(communicator_.rank()) + ")";
   const std::string all = communicator_.first_non_empty(mine);
   if (failure_.empty()) failure_ = all;
   return all;
@@ -32,8 +33,10 @@ void Agreement::await_others(const std::string& text) const {
   int arrived = 0;
   while (MPI_Test(&arrival, &arrived, MPI_STATUS_IGNORE) == MPI_SUCCESS && arrived == 0) {
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > limit_s_) {
-      std::fprintf(stderr, "error: %s (on rank %d; the other ranks wait for it inside ParaView, so the run ends here)\n",
-                   text.c_str(), communicator_.rank());
+      std::fprintf(
+          stderr,
+          "error: %s (on rank %d; the other ranks wait for it inside ParaView, so the run ends here)\n",
+          text.c_str(), communicator_.rank());
       std::fflush(nullptr);
       MPI_Abort(communicator_.handle(), 3);
     }

@@ -90,11 +90,13 @@ CatalystPipeline::CatalystPipeline(const Settings& settings, parallel::Communica
     add_scripts(settings);
   }));
   grid_.emplace();
-  if (!agreement_.failure().empty()) finish();
+  if (!agreement_.failure().empty()) close();
   throw_if_failed();
 }
 
-CatalystPipeline::~CatalystPipeline() { CatalystPipeline::finish(); }
+CatalystPipeline::~CatalystPipeline() {
+  close();
+}
 
 void CatalystPipeline::start_paraview() {
   disable_display_test();
@@ -119,7 +121,9 @@ std::vector<CatalystScript*> CatalystPipeline::scripts_wanting(long step, double
   return wanting;
 }
 
-bool CatalystPipeline::wants(long step, double time_s) { return !scripts_wanting(step, time_s).empty(); }
+bool CatalystPipeline::wants(long step, double time_s) {
+  return !scripts_wanting(step, time_s).empty();
+}
 
 std::vector<std::string> CatalystPipeline::needed_fields(const PointSource& source,
                                                          const std::vector<CatalystScript*>& scripts) const {
@@ -133,7 +137,8 @@ std::vector<std::string> CatalystPipeline::needed_fields(const PointSource& sour
   for (const CatalystScript* script : scripts) {
     for (const std::string& name : script->fields().value_or(available)) {
       if (std::ranges::find(available, name) == available.end()) {
-        throw RunError("Catalyst script " + script->path() + " asks for the field '" + name + "'; there are: " + list);
+        throw RunError("Catalyst script " + script->path() + " asks for the field '" + name +
+                       "'; there are: " + list);
       }
       if (std::ranges::find(needed, name) == needed.end()) needed.push_back(name);
     }
@@ -156,6 +161,12 @@ void CatalystPipeline::process(PointSource& source) {
 }
 
 void CatalystPipeline::finish() {
+  const bool failed_before = !agreement_.failure().empty();
+  close();
+  if (!failed_before) throw_if_failed();
+}
+
+void CatalystPipeline::close() {
   if (processor_ == nullptr) return;
   for (const auto& script : scripts_) script->finish();
   scripts_.clear();

@@ -47,6 +47,7 @@ class CatalystPipeline : public Pipeline {
                                          const std::vector<CatalystScript*>& scripts) const;
   std::vector<CatalystScript*> scripts_wanting(long step, double time_s);
   void throw_if_failed() const;
+  void close();
 
   // In this order: what stands first goes last.
   OwnCommunicator paraview_communicator_;

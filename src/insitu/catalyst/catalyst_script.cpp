@@ -2,9 +2,11 @@
 
 #include <vtkCPDataDescription.h>
 #include <vtkCPInputDataDescription.h>
-
-#include <cmath>
-#include <limits>
+#include <vtkCallbackCommand.h>
+#include <vtkCollection.h>
+#include <vtkSMProxy.h>
+#include <vtkSMProxyManager.h>
+#include <vtkSMSessionProxyManager.h>
 
 namespace rhexis::insitu {
 namespace {
@@ -17,6 +19,23 @@ vtkSmartPointer<vtkCPDataDescription> describe(vtkPolyData* grid, long step, dou
   }
   description->SetTimeData(time_s, static_cast<vtkIdType>(step));
   return description;
+}
+
+/// ParaView's producers warn when they get data twice for the same time, as they do at a script's start and
+/// again at its first run. An object whose warnings somebody observes does not print them.
+void silence_producers() {
+  vtkNew<vtkCallbackCommand> ignore;
+  auto* proxies = vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
+  for (const char* name : channel_names) {
+    vtkNew<vtkCollection> producers;
+    proxies->GetProxies("sources", name, producers);
+    for (int i = 0; i < producers->GetNumberOfItems(); ++i) {
+      auto* proxy = vtkSMProxy::SafeDownCast(producers->GetItemAsObject(i));
+      auto* producer = vtkObject::SafeDownCast(proxy->GetClientSideObject());
+      if (producer->HasObserver(vtkCommand::WarningEvent) == 0)
+        producer->AddObserver(vtkCommand::WarningEvent, ignore);
+    }
+  }
 }
 
 }  // namespace
@@ -38,11 +57,10 @@ void CatalystScript::run(vtkPolyData* grid, long step, double time_s) {
 }
 
 bool CatalystScript::start(vtkPolyData* grid, long step, double time_s) {
-  // ParaView warns when it gets data twice for the same time, as start and first run would do.
-  const double just_before = std::nextafter(time_s, -std::numeric_limits<double>::infinity());
-  auto description = describe(grid, step, just_before);
+  auto description = describe(grid, step, time_s);
   if (!helper_->Import(description) || !helper_->CatalystInitialize(description)) return false;
   started_ = true;
+  silence_producers();
   return wants(step, time_s);
 }
 

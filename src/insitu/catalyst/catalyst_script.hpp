@@ -27,7 +27,8 @@ class CatalystScript {
   /// Collective, as the script may decide by code of its own. A script not started yet wants any step.
   bool wants(long step, double time_s);
 
-  /// Starts the script if this is its first time and lets it make its extracts. Failures are left with the guard.
+  /// Starts the script if this is its first time and lets it make its extracts. Failures are left with the
+  /// guard.
   void run(vtkPolyData* grid, long step, double time_s);
 
   void finish();

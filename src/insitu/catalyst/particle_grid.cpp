@@ -21,7 +21,8 @@ vtkSmartPointer<vtkDataArray> borrow(const FieldView& view) {
   for (int component = 0; component < view.info.components; ++component) {
     // VTK's interface has no const, but filters leave their input alone; `save`: VTK must not free it.
     auto* values = const_cast<double*>(view.component[static_cast<std::size_t>(component)]);
-    array->SetArray(component, values, static_cast<vtkIdType>(view.count), /*updateMaxId=*/true, /*save=*/true);
+    array->SetArray(component, values, static_cast<vtkIdType>(view.count), /*updateMaxId=*/true,
+                    /*save=*/true);
   }
   return array;
 }
@@ -49,7 +50,9 @@ vtkPolyData* ParticleGrid::lend(PointSource& source, const std::vector<std::stri
   return grid_;
 }
 
-void ParticleGrid::release() { grid_->Initialize(); }
+void ParticleGrid::release() {
+  grid_->Initialize();
+}
 
 void ParticleGrid::make_vertices(vtkIdType count) {
   if (vertices_->GetNumberOfCells() == count) return;

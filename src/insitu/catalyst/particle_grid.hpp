@@ -13,8 +13,9 @@ namespace rhexis::insitu {
 
 class ParticleGrid {
  public:
-  /// Lends the source's memory to VTK (no copy); only the fields named are asked of the source. Annotations, time
-  /// and step become field data of one value each: `time` (s), `step` and the annotations' own names (SI units).
+  /// Lends the source's memory to VTK (no copy); only the fields named are asked of the source. Annotations,
+  /// time and step become field data of one value each: `time` (s), `step` and the annotations' own names (SI
+  /// units).
   vtkPolyData* lend(PointSource& source, const std::vector<std::string>& fields);
 
   /// Takes the memory back; the vertex cells, which never change, stay.

@@ -1,11 +1,11 @@
-#include <vtkPython.h>  // before any other header
+#include "insitu/catalyst/script_guard.hpp"
 
+#include <vtkPython.h>  // before any other header
 #include <vtkPythonInterpreter.h>
 #include <vtkSmartPyObject.h>
 
 #include "core/error.hpp"
 #include "insitu/catalyst/guard_source.hpp"
-#include "insitu/catalyst/script_guard.hpp"
 
 namespace rhexis::insitu {
 namespace {

@@ -41,7 +41,8 @@ struct Egl {
     load(current, "eglGetCurrentContext");
     display = platform_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
     // Kept for the life of the process: windows share it.
-    if (display != EGL_NO_DISPLAY && initialize(display, nullptr, nullptr) != EGL_TRUE) display = EGL_NO_DISPLAY;
+    if (display != EGL_NO_DISPLAY && initialize(display, nullptr, nullptr) != EGL_TRUE)
+      display = EGL_NO_DISPLAY;
   }
 };
 
@@ -75,11 +76,19 @@ class EglContext : public GlContext {
 
 std::unique_ptr<GlContext> create_egl_context() {
   if (egl().display == EGL_NO_DISPLAY || egl().bind_api(EGL_OPENGL_API) != EGL_TRUE) return nullptr;
-  const std::array<EGLint, 9> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_RED_SIZE, 8,
-                                     EGL_DEPTH_SIZE,   24,              EGL_NONE};
+  const std::array<EGLint, 9> wanted{EGL_SURFACE_TYPE,
+                                     EGL_PBUFFER_BIT,
+                                     EGL_RENDERABLE_TYPE,
+                                     EGL_OPENGL_BIT,
+                                     EGL_RED_SIZE,
+                                     8,
+                                     EGL_DEPTH_SIZE,
+                                     24,
+                                     EGL_NONE};
   EGLConfig config = nullptr;
   EGLint found = 0;
-  if (egl().choose_config(egl().display, wanted.data(), &config, 1, &found) != EGL_TRUE || found == 0) return nullptr;
+  if (egl().choose_config(egl().display, wanted.data(), &config, 1, &found) != EGL_TRUE || found == 0)
+    return nullptr;
 
   // The surface is never drawn to, but VTK asks for its colour sizes.
   const std::array<EGLint, 5> size{EGL_WIDTH, 64, EGL_HEIGHT, 64, EGL_NONE};

@@ -1,5 +1,5 @@
-/// An OpenGL context without a display. Both kinds are opened at run time (dlopen), so neither library is needed to
-/// start the program.
+/// An OpenGL context without a display. Both kinds are opened at run time (dlopen), so neither library is
+/// needed to start the program.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,9 @@ namespace {
 
 Headless current_kind = Headless::none;
 
-vtkObject* new_headless_window() { return HeadlessWindow::New(); }
+vtkObject* new_headless_window() {
+  return HeadlessWindow::New();
+}
 
 class HeadlessFactory : public vtkObjectFactory {
  public:
@@ -24,8 +26,7 @@ class HeadlessFactory : public vtkObjectFactory {
   const char* GetDescription() override { return "Rhexis: windows without a display"; }
   vtkTypeMacro(HeadlessFactory, vtkObjectFactory)
 
- private:
-  HeadlessFactory() {
+      private : HeadlessFactory() {
     RegisterOverride("vtkRenderWindow", "HeadlessWindow", "no display", 1, &new_headless_window);
   }
 };
@@ -43,7 +44,9 @@ std::string renderer_name(GlContext& context) {
 
 }  // namespace
 
-Headless headless_kind() { return current_kind; }
+Headless headless_kind() {
+  return current_kind;
+}
 
 std::string use_headless_windows(Headless kind) {
   auto context = create_context(kind);
@@ -73,7 +76,9 @@ HeadlessWindow::HeadlessWindow() {
   FrameBlitMode = NoBlit;
 }
 
-HeadlessWindow::~HeadlessWindow() { HeadlessWindow::Finalize(); }
+HeadlessWindow::~HeadlessWindow() {
+  HeadlessWindow::Finalize();
+}
 
 void HeadlessWindow::Initialize() {
   if (context_ == nullptr) CreateAWindow();
@@ -119,9 +124,13 @@ void HeadlessWindow::ReleaseCurrent() {
   if (context_ != nullptr && context_->is_current()) context_->release_current();
 }
 
-bool HeadlessWindow::IsCurrent() { return context_ != nullptr && context_->is_current(); }
+bool HeadlessWindow::IsCurrent() {
+  return context_ != nullptr && context_->is_current();
+}
 
-void* HeadlessWindow::GetGenericContext() { return context_ == nullptr ? nullptr : context_->handle(); }
+void* HeadlessWindow::GetGenericContext() {
+  return context_ == nullptr ? nullptr : context_->handle();
+}
 
 int* HeadlessWindow::GetScreenSize() {
   // No screen limits the size of a picture; ParaView only wants a plausible answer.

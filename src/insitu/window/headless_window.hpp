@@ -25,8 +25,7 @@ class HeadlessWindow : public vtkOpenGLRenderWindow {
   int* GetScreenSize() override;
   vtkTypeMacro(HeadlessWindow, vtkOpenGLRenderWindow)
 
- protected:
-  HeadlessWindow();
+      protected : HeadlessWindow();
   ~HeadlessWindow() override;
   void CreateAWindow() override;
   void DestroyWindow() override;
@@ -38,8 +37,8 @@ class HeadlessWindow : public vtkOpenGLRenderWindow {
   std::unique_ptr<GlContext> context_;
 };
 
-/// From now on VTK makes windows of this kind. Returns what OpenGL says of its renderer, e.g. "llvmpipe (...)";
-/// empty (and nothing changed) where such a context cannot be made.
+/// From now on VTK makes windows of this kind. Returns what OpenGL says of its renderer, e.g. "llvmpipe
+/// (...)"; empty (and nothing changed) where such a context cannot be made.
 std::string use_headless_windows(Headless kind);
 
 /// What windows are made of at present.

@@ -6,6 +6,8 @@
 namespace rhexis::insitu {
 
 /// Puts OSMesa in the global scope; null where it is not installed.
-inline void* open_osmesa() { return dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_GLOBAL); }
+inline void* open_osmesa() {
+  return dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_GLOBAL);
+}
 
 }  // namespace rhexis::insitu

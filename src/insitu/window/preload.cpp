@@ -1,5 +1,5 @@
-// librhexis_window.so: gives pvpython and pvbatch a window without a display; postprocessing/pvpython_headless
-// places it (LD_PRELOAD) before them.
+// librhexis_window.so: gives pvpython and pvbatch a window without a display;
+// postprocessing/pvpython_headless places it (LD_PRELOAD) before them.
 #include <cstdio>
 #include <cstdlib>
 

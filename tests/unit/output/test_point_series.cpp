@@ -2,10 +2,8 @@
 // values of the synthetic source fit single precision.
 #include <gtest/gtest.h>
 #include <hdf5.h>
-#include <sys/resource.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
-
-#include <csignal>
 
 #include "core/error.hpp"
 #include "output/disk_space.hpp"
@@ -185,25 +183,55 @@ TEST(PointSeries, AnEarlyEndHasAPlaceOfItsOwn) {
   EXPECT_EQ(listed.find("<Time Value=\"0.061\"/>"), std::string::npos);
 }
 
-TEST(PointSeries, AFailedWriteIsAnErrorOnAllRanksAndLeavesEarlierSteps) {
+/// A file system of its own with little space.
+class SmallDisk {
+ public:
+  SmallDisk(const std::filesystem::path& path, std::int64_t bytes) : path_(path) {
+    if (world.is_root())
+      mounted_ = mount("none", path.c_str(), "tmpfs", 0, ("size=" + std::to_string(bytes)).c_str()) == 0;
+    mounted_ = world.all_reduce(std::int64_t{mounted_}, parallel::Reduce::max) == 1;
+  }
+  ~SmallDisk() {
+    world.barrier();
+    if (mounted_ && world.is_root()) umount2(path_.c_str(), MNT_DETACH);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+  bool mounted() const { return mounted_; }
+
+ private:
+  std::filesystem::path path_;
+  bool mounted_ = false;
+};
+
+TEST(PointSeries, AFullDiskIsAnErrorOnAllRanksAndLeavesEarlierSteps) {
   const TemporaryDirectory directory;
-  SyntheticSource source(test::divided(9, 17, world, 1), 0);
-  PointSeries series(plan_in(directory.path(), {0, 50}), source.layout(), world);
+  const std::int64_t bytes_of_step = 50 * 200 * 7 * 4;
+  const SmallDisk disk(directory.path(), 4 * bytes_of_step);
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
+  SyntheticSource source(test::divided(50, 200, world, 1), 0);
+  PointSeries series(plan_in(directory.path(), {0, 50, 100, 150}), source.layout(), world);
   series.write(source);
-  // Stands for a full disk, which a test cannot have: on rank 0 no write to a file succeeds.
-  rlimit limit{};
-  getrlimit(RLIMIT_FSIZE, &limit);
-  const rlimit nothing{0, limit.rlim_max};
-  std::signal(SIGXFSZ, SIG_IGN);
-  if (world.is_root()) setrlimit(RLIMIT_FSIZE, &nothing);
-  source.move_to(50);
-  const std::string message = test::message_of<RunError>([&] { series.write(source); });
-  setrlimit(RLIMIT_FSIZE, &limit);
-  EXPECT_NE(message.find((directory / "particles.").string()), std::string::npos) << message;
-  EXPECT_NE(message.find("cannot write"), std::string::npos) << message;
+  std::string message;
+  for (long step = 50; step <= 150 && message.empty(); step += 50) {
+    source.move_to(step);
+    message = test::message_of<RunError>([&] { series.write(source); });
+  }
+  EXPECT_EQ(source.step(), 150);
+  EXPECT_EQ(message,
+            (directory / "particles.h5").string() + ": cannot reserve disk space: No space left on device");
   if (!world.is_root()) return;
-  expect_step(directory / "particles.h5", 9 * 17, 0, "000000");
-  EXPECT_EQ(test::text_of(directory / "particles.xdmf").find("000050"), std::string::npos);
+  for (const long step : {0, 50, 100}) {
+    expect_step(directory / "particles.h5", 50 * 200, step,
+                step == 0    ? "000000"
+                : step == 50 ? "000050"
+                             : "000100");
+  }
+  EXPECT_EQ(test::text_of(directory / "particles.xdmf").find("000150"), std::string::npos);
+  // The space of the step that failed is free again for what is left to say.
+  std::ofstream last_words(directory / "run.json");
+  last_words << std::string(1 << 16, ' ') << std::flush;
+  EXPECT_TRUE(last_words.good());
 }
 
 TEST(PointSeries, AFolderThatIsNotThereIsAnErrorOnAllRanks) {

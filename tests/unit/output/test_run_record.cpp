@@ -35,8 +35,8 @@ TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
   EXPECT_EQ(keys_of(json["results"]),
             (std::vector<std::string>{"particles", "bonds", "family_max", "time_step_s", "stable_time_step_s",
                                       "steps", "simulated_s", "first_bond_break_s", "rupture_onset_s",
-                                      "max_displacement_m", "max_damage", "rupture_length_m", "energy_drift",
-                                      "network"}));
+                                      "max_displacement_at_onset_m", "max_displacement_m", "max_damage",
+                                      "rupture_length_m", "opening_area_m2", "energy_drift", "network"}));
   EXPECT_EQ(keys_of(json["results"]["network"]),
             (std::vector<std::string>{"vessels", "junctions", "inflow_m3_s", "max_imbalance", "volume_m3",
                                       "solver", "iterations"}));

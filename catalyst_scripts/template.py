@@ -1,0 +1,60 @@
+"""A plain Catalyst script to start from: copy it, change it, and name it in the input file.
+
+    [insitu]
+    scripts = ["my_script.py"]
+
+A script runs once from top to bottom at the first picture and builds a pipeline, just as in pvpython; then, at
+every later step, ParaView passes new data through it and writes what the extractors ask for.
+Easier still: open results/.../particles.xdmf in ParaView, make a picture, and choose File > Save Catalyst State.
+"""
+
+from paraview import catalyst
+from paraview.simple import (
+    ColorBy,
+    CreateExtractor,
+    CreateRenderView,
+    GetColorTransferFunction,
+    PVTrivialProducer,
+    ResetCamera,
+    Show,
+)
+
+# What the program should compute and send (a list of literal names, on one or several lines). Without this line all:
+# displacement (m), velocity (m/s), force_density (N/m3), damage (0 ... 1), strain_energy_density (J/m3).
+fields = ["damage"]
+
+# The particles, as points. With them come numbers such as `pressure` (Pa), `time` (s) and `step`, as field data.
+particles = PVTrivialProducer(registrationName="particles")
+
+view = CreateRenderView()
+view.ViewSize = [800, 600]
+view.UseColorPaletteForBackground = 0
+view.Background = [1.0, 1.0, 1.0]
+
+display = Show(particles, view)
+display.Representation = "Points"
+display.PointSize = 3
+ColorBy(display, ("POINTS", "damage"))
+colours = GetColorTransferFunction("damage")
+colours.AutomaticRescaleRangeMode = "Never"
+colours.RescaleTransferFunction(0.0, 0.5)
+
+view.CameraPosition = [3.0, 1.0, 1.5]  # the direction to look from; ResetCamera finds the distance
+view.CameraFocalPoint = [0.0, 0.0, 0.0]
+view.CameraViewUp = [0.0, 0.0, 1.0]
+ResetCamera(view)
+
+# One image every time that the program offers data (2: at every even step number, and so on). Files go to the
+# image directory of the run, whatever directory a script names.
+image = CreateExtractor("PNG", view, registrationName="image")
+image.Writer.FileName = "damage_{timestep:06d}.png"
+image.Writer.ImageResolution = [800, 600]
+image.Trigger = "TimeStep"
+image.Trigger.Frequency = 1
+
+options = catalyst.Options()
+
+
+def catalyst_execute(info):
+    """Optional: called at every step, on every rank, before the extractors: to change the pipeline or to compute."""
+    view.OrientationAxesVisibility = 1 if info.timestep == 0 else 0

@@ -1,0 +1,14 @@
+#!/bin/bash
+# A movie from the images of a run:
+#   postprocessing/make_movie.sh results/perivessel/images [movie.mp4] [frames per second]
+# The movie's default place is beside the folder of images; images are taken in the order of their names.
+set -euo pipefail
+images=${1:?usage: make_movie.sh IMAGE_DIRECTORY [MOVIE.mp4] [FRAMES_PER_SECOND]}
+movie=${2:-$(dirname "$(realpath "$images")")/movie.mp4}
+rate=${3:-12}
+command -v ffmpeg > /dev/null || { echo "error: ffmpeg is not installed (Debian: ffmpeg)" >&2; exit 1; }
+compgen -G "$images/vessel_*.png" > /dev/null || { echo "error: no vessel_*.png in $images" >&2; exit 1; }
+# The last image stays for another second.
+ffmpeg -y -loglevel error -framerate "$rate" -pattern_type glob -i "$images/vessel_*.png" \
+  -vf tpad=stop_mode=clone:stop_duration=1 -c:v libx264 -pix_fmt yuv420p -crf 18 -movflags +faststart "$movie"
+echo "$movie"

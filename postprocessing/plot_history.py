@@ -1,0 +1,78 @@
+#!/usr/bin/python3
+"""Curves over time from the history of a run.
+
+    postprocessing/plot_history.py results/perivessel/history.csv [-o history.png]
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")  # no display needed
+
+import matplotlib.pyplot as plt
+import numpy
+
+
+def read(path):
+    """Columns by name; an empty value is not a number."""
+    table = numpy.genfromtxt(path, delimiter=",", names=True, dtype=float)
+    return {name: numpy.atleast_1d(table[name]) for name in table.dtype.names}
+
+
+def two_axes(axes, time_ms, left, right):
+    """Two curves that share the time axis; each is (values, label, colour)."""
+    other = axes.twinx()
+    for side, (values, label, colour) in ((axes, left), (other, right)):
+        side.plot(time_ms, values, color=colour, linewidth=1.8)
+        side.set_ylabel(label, color=colour)
+        side.tick_params(axis="y", colors=colour)
+        if numpy.nanmin(values, initial=0.0) >= 0:
+            side.set_ylim(bottom=0)
+    axes.grid(alpha=0.3)
+
+
+def plot(history):
+    time_ms = 1e3 * history["time_s"]
+    figure, (top, middle, bottom) = plt.subplots(3, 1, sharex=True, figsize=(7.2, 8.4), layout="constrained")
+    blue, red = "#1f5fa8", "#a8201f"
+    two_axes(
+        top,
+        time_ms,
+        (1e-3 * history["pressure_Pa"], "pressure (kPa)", blue),
+        (1e3 * history["max_displacement_m"], "largest displacement (mm)", red),
+    )
+    two_axes(
+        middle,
+        time_ms,
+        (history["max_damage"], "largest damage (fraction)", blue),
+        (1e3 * history["rupture_length_m"], "rupture length (mm)", red),
+    )
+    for name, label, colour in (
+        ("external_work_J", "work of the load", "#444444"),
+        ("strain_J", "strain energy", blue),
+        ("kinetic_J", "kinetic energy", red),
+    ):
+        bottom.plot(time_ms, 1e3 * history[name], label=label, color=colour, linewidth=1.8)
+    bottom.set_ylabel("energy (mJ)")
+    bottom.legend(frameon=False)
+    bottom.grid(alpha=0.3)
+    bottom.set_xlabel("time (ms)")
+    return figure
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("history", type=Path, help="history.csv of a run")
+    parser.add_argument("-o", "--output", type=Path, help="image to write (default: history.png beside it)")
+    arguments = parser.parse_args()
+    if not arguments.history.exists():
+        sys.exit(f"error: no file {arguments.history}")
+    output = arguments.output or arguments.history.with_suffix(".png")
+    plot(read(arguments.history)).savefig(output, dpi=150)
+    print(output)
+
+
+main()

@@ -1,0 +1,71 @@
+"""Pictures of a vessel from saved particles: the same as catalyst_scripts/vessel.py makes during the run.
+
+    postprocessing/pvpython_headless postprocessing/render_particles.py results/perivessel/particles.xdmf
+    ... [-o DIRECTORY] [--every N]
+
+Images vessel_<step>.png go to DIRECTORY (default: images/ beside the file). Pressures come from history.csv
+beside the file, if it is there.
+"""
+
+import argparse
+import csv
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from paraview.simple import SaveScreenshot, XDMFReader
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "catalyst_scripts"))
+
+from vessel_picture import HEIGHT, WIDTH, VesselPicture
+
+
+def read_frames(path):
+    """(time in s, step) of each moment in the file; the step is in the names of the data sets."""
+    frames = []
+    for grid in ElementTree.parse(path).getroot().iter("Grid"):
+        time = grid.find("Time")
+        if time is None:
+            continue
+        data_sets = " ".join(item.text for item in grid.iter("DataItem") if item.text)
+        step = re.search(r":/position/(\d+)", data_sets)
+        frames.append((float(time.get("Value")), int(step.group(1)) if step else len(frames)))
+    return frames
+
+
+def read_pressures(path):
+    """Pressure in Pa by step, empty without a history."""
+    if not path.exists():
+        return {}
+    with open(path, encoding="utf-8") as file:
+        return {int(row["step"]): float(row["pressure_Pa"]) for row in csv.DictReader(file) if row["pressure_Pa"]}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("particles", type=Path, help="particles.xdmf of a run")
+    parser.add_argument("-o", "--output", type=Path, help="folder of the images")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="only every Nth moment")
+    arguments = parser.parse_args()
+    if not arguments.particles.exists():
+        sys.exit(f"error: no file {arguments.particles}")
+    output = arguments.output or arguments.particles.parent / "images"
+    output.mkdir(parents=True, exist_ok=True)
+
+    frames = read_frames(arguments.particles)
+    if not frames:
+        sys.exit(f"error: {arguments.particles} holds no moment in time")
+    pressures = read_pressures(arguments.particles.parent / "history.csv")
+    particles = XDMFReader(FileNames=[str(arguments.particles)])
+    particles.PointArrayStatus = ["displacement", "damage"]
+    picture = VesselPicture(particles)
+    for time_s, step in frames[:: arguments.every]:
+        picture.view.ViewTime = time_s
+        picture.update(step, time_s, pressures.get(step))
+        image = output / f"vessel_{step:06d}.png"
+        SaveScreenshot(str(image), picture.view, ImageResolution=[WIDTH, HEIGHT])
+        print(image)
+
+
+main()

@@ -1,0 +1,82 @@
+#include "app/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "app/console.hpp"
+#include "peridynamics/body.hpp"
+#include "peridynamics/bond_kernel.hpp"
+
+namespace rhexis::app {
+namespace {
+
+using peridynamics::BondFamilies;
+using peridynamics::Lattice;
+
+/// Seconds one step of the whole body takes on these ranks, from a few steps of a short piece of it.
+double seconds_per_step(const Configuration& c, const Lattice& lattice, const BondFamilies& families,
+                        parallel::Communicator comm) {
+  constexpr int timed_steps = 10;
+  Lattice piece = lattice;
+  piece.rows = std::min<std::int64_t>(lattice.rows, 64L * comm.size());
+  peridynamics::Parameters parameters = c.vessel;
+  parameters.ends = "free";
+  const auto body = peridynamics::make_body(
+      peridynamics::make_setup(parameters, piece, families, c.time_step), comm);
+  body->advance(0, 0);  // warms caches and pages
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < timed_steps; ++i) body->advance(0, 0);
+  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return comm.all_reduce(elapsed, parallel::Reduce::max) / timed_steps * static_cast<double>(lattice.rows) /
+         static_cast<double>(piece.rows);
+}
+
+/// Bytes that the wall takes: state, what bonds read, bond bits, and fields while they are observed and written.
+double body_bytes(const Configuration& c, const Lattice& lattice, const BondFamilies& families) {
+  const double real = c.vessel.bond_precision == "double" ? sizeof(double) : sizeof(float);
+  const auto particles = static_cast<double>(lattice.particles());
+  const double blocks = static_cast<double>((lattice.rows + 15) / 16);
+  const double state = particles * (6 * sizeof(double) + 6 * real);
+  const double bits = static_cast<double>(families.bonds.size()) * blocks * sizeof(std::uint16_t);
+  const double observed = particles * (8 + 3 + 3) * sizeof(double);
+  return state + bits + observed;
+}
+
+}  // namespace
+
+void check(const Configuration& c, parallel::Communicator comm) {
+  const Lattice lattice = peridynamics::make_lattice(c.vessel);
+  const BondFamilies families = peridynamics::make_families(lattice);
+  const bool periodic = peridynamics::end_condition(c.vessel) == peridynamics::EndCondition::axial_periodic;
+  const double step = seconds_per_step(c, lattice, families, comm);
+
+  Console console(comm.is_root(), false);
+  console.line(c.file + " is valid.");
+  for (const std::string& warning : c.warnings) console.warning(warning);
+  console.item("spacing", with_prefix(lattice.spacing, "m") + fmt::format(" ({:.1f} across the wall), {} between rows",
+                                                                          (c.vessel.outer_radius - c.vessel.inner_radius) /
+                                                                              lattice.spacing,
+                                                                          with_prefix(lattice.row_spacing, "m")));
+  console.item("horizon", with_prefix(lattice.horizon, "m") +
+                              fmt::format(" ({:.4g} spacings)", lattice.horizon / lattice.spacing));
+  console.item("particles", fmt::format("{} = {} columns x {} rows", grouped(lattice.particles()),
+                                        lattice.section.size(), lattice.rows));
+  console.item("bonds", fmt::format("{}, at most {} a particle",
+                                    grouped(peridynamics::count_bonds(lattice, families, periodic)),
+                                    peridynamics::largest_family(lattice, families, periodic)));
+  console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps", with_prefix(c.time_step, "s"),
+                                        100 * c.time_step / c.stable_time_step, with_prefix(c.stable_time_step, "s"),
+                                        grouped(c.steps)));
+  console.item("outputs", grouped(static_cast<long long>(c.output_steps.size())));
+  console.item("memory", fmt::format("about {:.0f} MB for the wall, all ranks together",
+                                     body_bytes(c, lattice, families) / 1e6));
+  console.item("time", fmt::format("about {} of solving on {} rank{} x {} thread{} (measured now; output and pictures "
+                                   "come on top)",
+                                   duration(step * static_cast<double>(c.steps)), comm.size(),
+                                   comm.size() > 1 ? "s" : "", parallel::thread_count(),
+                                   parallel::thread_count() > 1 ? "s" : ""));
+}
+
+}  // namespace rhexis::app

@@ -1,0 +1,70 @@
+#include "app/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "app/check.hpp"
+#include "app/configuration.hpp"
+#include "app/version.hpp"
+#include "app/vessel_run.hpp"
+#include "input/keys.hpp"
+
+namespace rhexis::app {
+
+Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
+  Command command;
+  CLI::App cli{"Rhexis: rupture of blood vessels by peridynamics, seen while it runs."};
+  cli.set_version_flag("--version", [] { return build_description(); }, "What this program is and was built with");
+  cli.require_subcommand(1);
+
+  CLI::App* run = cli.add_subcommand("run", "Simulate what an input file describes");
+  CLI::App* check = cli.add_subcommand("check", "Validate an input file; print derived numbers and the expected cost");
+  CLI::App* keys = cli.add_subcommand("keys", "Explain every key of input files");
+  for (CLI::App* sub : {run, check}) {
+    sub->add_option("FILE", command.file, "Input file (TOML)")->required();
+    sub->add_option("--set", command.overrides, "Replace or add a key, e.g. --set load.pressure='200 kPa'")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+  }
+  run->add_option("-o,--output", command.directory, "Folder for results; default results/<name of FILE>");
+  run->add_option("--restart", command.restart, "Go on from a checkpoint of an earlier run");
+  run->add_flag("--quiet", command.quiet, "Print errors only");
+  keys->add_option("SECTION", command.section, "One section only");
+
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool asked = error.get_exit_code() == 0;  // --help, --version
+    if (comm.is_root()) cli.exit(error);
+    command.status = asked ? 0 : 2;
+    return command;
+  }
+  command.action = run->parsed() ? Action::run : check->parsed() ? Action::check : Action::keys;
+  return command;
+}
+
+void carry_out(const Command& command, parallel::Communicator comm) {
+  if (command.action == Action::keys) {
+    Configuration unused;
+    const std::string text = input::describe_keys(declare(unused), command.section);
+    if (comm.is_root()) fmt::print("{}", text);
+    return;
+  }
+  Configuration configuration = read_configuration(command.file, command.overrides, comm);
+  if (command.action == Action::check) {
+    check(configuration, comm);
+    return;
+  }
+  RunOptions options;
+  options.directory = command.directory.empty()
+                          ? std::filesystem::path("results") / std::filesystem::path(command.file).stem()
+                          : std::filesystem::path(command.directory);
+  options.restart = command.restart;
+  options.quiet = command.quiet;
+  VesselRun(std::move(configuration), options, comm).run();
+}
+
+}  // namespace rhexis::app

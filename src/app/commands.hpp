@@ -1,0 +1,30 @@
+/// The command line: what was asked for, and doing it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "parallel/communicator.hpp"
+
+namespace rhexis::app {
+
+enum class Action { run, check, keys, nothing };
+
+struct Command {
+  Action action = Action::nothing;
+  std::string file;
+  std::vector<std::string> overrides;  ///< of --set, "key=value"
+  std::string directory;               ///< of -o; empty: results/<name of the input file>
+  std::string restart;                 ///< checkpoint
+  std::string section;                 ///< of `keys`
+  bool quiet = false;
+  int status = 0;                      ///< exit status where there is nothing to do (help, a wrong call)
+};
+
+/// Prints help, version or what is wrong with the call (on the root rank), then leaves nothing to do.
+Command parse_command_line(int argc, char** argv, parallel::Communicator comm);
+
+/// Does it. Throws InputError and RunError.
+void carry_out(const Command& command, parallel::Communicator comm);
+
+}  // namespace rhexis::app

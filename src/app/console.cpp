@@ -1,0 +1,108 @@
+#include "app/console.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace rhexis::app {
+
+std::string with_prefix(double value, const std::string& unit, int digits) {
+  if (!std::isfinite(value)) return "-";
+  struct Prefix {
+    double factor;
+    const char* name;
+  };
+  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}};
+  // Rounded first, so that 999.99 does not become "1000".
+  const double rounded = std::stod(fmt::format("{:.{}g}", value, digits));
+  for (const Prefix& p : prefixes) {
+    if (std::abs(rounded) >= p.factor * (1 - 1e-12)) {
+      return fmt::format("{:.{}g} {}{}", rounded / p.factor, digits, p.name, unit);
+    }
+  }
+  return fmt::format("{:.{}g} {}", rounded, digits, unit);
+}
+
+std::string grouped(long long count) {
+  const std::string digits = std::to_string(std::abs(count));
+  std::string text = count < 0 ? "-" : "";
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string duration(double seconds) {
+  if (!std::isfinite(seconds)) return "?";
+  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
+
+Console::Console(bool speaks, bool quiet) : speaks_(speaks && !quiet), terminal_(isatty(STDOUT_FILENO) != 0) {}
+
+Console::~Console() { clear_bar(); }
+
+void Console::line(const std::string& text) {
+  if (!speaks_) return;
+  clear_bar();
+  fmt::print("{}\n", text);
+  std::fflush(stdout);
+}
+
+void Console::item(const std::string& label, const std::string& text) {
+  line(fmt::format("  {:<12}{}", label, text));
+}
+
+void Console::warning(const std::string& text) {
+  if (!speaks_) return;
+  clear_bar();
+  std::fflush(stdout);
+  fmt::print(stderr, "rhexis: warning: {}\n", text);
+}
+
+void Console::progress(long step, long steps, const std::string& state) {
+  using std::chrono::steady_clock;
+  if (!speaks_) return;
+  const auto now = steady_clock::now();
+  if (first_step_ < 0) {
+    first_step_ = step;
+    start_ = last_drawn_ = now;
+    last_tenth_ = step * 10 / steps;
+    return;
+  }
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double rate = static_cast<double>(step - first_step_) / elapsed;
+  const double left = static_cast<double>(steps - step) / rate;
+  const auto text = [&] {
+    return fmt::format("step {}/{}  {}  {:.0f} steps/s, {} left", step, steps, state, rate, duration(left));
+  };
+  if (terminal_) {
+    if (now - last_drawn_ < std::chrono::milliseconds(200) && step < steps) return;
+    last_drawn_ = now;
+    constexpr long width = 24;
+    const long full = width * step / steps;
+    fmt::print("\r\033[K  [{}{}] {:3d} %  {}", std::string(full, '#'), std::string(width - full, '.'),
+               100 * step / steps, text());
+    bar_shown_ = true;
+    std::fflush(stdout);
+  } else if (step * 10 / steps > last_tenth_) {
+    last_tenth_ = step * 10 / steps;
+    line(fmt::format("  {:3d} %  {}", 100 * step / steps, text()));
+  }
+}
+
+void Console::clear_bar() {
+  if (!bar_shown_) return;
+  fmt::print("\r\033[K");
+  std::fflush(stdout);
+  bar_shown_ = false;
+}
+
+}  // namespace rhexis::app

@@ -1,0 +1,41 @@
+/// What a run says at the terminal: header, progress, summary. Only the root rank speaks.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace rhexis::app {
+
+/// "0.5 mm", "238 kPa", "2.25 ms": `value` in SI with a metric prefix before `unit`; "-" for nan.
+std::string with_prefix(double value, const std::string& unit, int digits = 4);
+
+/// "54,800".
+std::string grouped(long long count);
+
+/// "12 s", "3 min 20 s", "2 h 5 min".
+std::string duration(double seconds);
+
+class Console {
+ public:
+  Console(bool speaks, bool quiet);
+  ~Console();
+
+  /// A line of its own; a progress bar below it is drawn anew.
+  void line(const std::string& text);
+  /// "  label       text".
+  void item(const std::string& label, const std::string& text);
+  void warning(const std::string& text);
+
+  /// A bar with rate and time left where stdout is a terminal; else a line at every tenth of the way.
+  void progress(long step, long steps, const std::string& state);
+
+ private:
+  void clear_bar();
+
+  bool speaks_, terminal_;
+  bool bar_shown_ = false;
+  long first_step_ = -1, last_tenth_ = -1;
+  std::chrono::steady_clock::time_point start_{}, last_drawn_{};
+};
+
+}  // namespace rhexis::app

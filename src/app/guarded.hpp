@@ -1,0 +1,37 @@
+/// Failures turned into one message and an exit status, the same on every rank.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "core/error.hpp"
+#include "parallel/communicator.hpp"
+
+namespace rhexis::app {
+
+/// Runs `work`; returns 0, or 2 for wrong input, or 3 for a failure while running. Both kinds of error are thrown
+/// on all ranks together, so one of them speaks; anything else is one rank's own and ends the program for all.
+template <class Work>
+int guarded(parallel::Communicator comm, const Work& work) {
+  const auto say = [&](const char* what) {
+    std::fflush(stdout);
+    if (comm.is_root()) fmt::print(stderr, "rhexis: {}\n", what);
+  };
+  try {
+    work();
+    return 0;
+  } catch (const InputError& error) {
+    say(error.what());
+    return 2;
+  } catch (const RunError& error) {
+    say(error.what());
+    return 3;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "rhexis: rank {}: {}\n", comm.rank(), error.what());
+    comm.abort(3);
+  }
+}
+
+}  // namespace rhexis::app

@@ -1,0 +1,51 @@
+#include "app/movie.hpp"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <map>
+#include <regex>
+#include <vector>
+
+extern char** environ;
+
+namespace rhexis::app {
+namespace {
+
+/// Exit status of a program found in PATH; -1 where it cannot be started.
+int run_program(std::vector<std::string> arguments) {
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  pid_t child = 0;
+  if (posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ) != 0) return -1;
+  int status = 0;
+  if (waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
+  return WEXITSTATUS(status);
+}
+
+}  // namespace
+
+std::string make_movie(const std::filesystem::path& images, const std::filesystem::path& movie,
+                       double frames_per_second) {
+  const std::regex numbered("(.*)_[0-9]+\\.png");
+  std::map<std::string, int> series;
+  for (const auto& entry : std::filesystem::directory_iterator(images)) {
+    const std::string name = entry.path().filename().string();
+    if (std::smatch match; std::regex_match(name, match, numbered)) ++series[match[1]];
+  }
+  const auto longest = std::max_element(series.begin(), series.end(),
+                                        [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (longest == series.end()) return "there are no numbered pictures";
+  if (longest->second < 2) return "there is one picture only";
+  const int status = run_program({"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-framerate",
+                                  fmt::format("{}", frames_per_second), "-pattern_type", "glob", "-i",
+                                  (images / (longest->first + "_*.png")).string(), "-c:v", "libx264", "-pix_fmt",
+                                  "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", movie.string()});
+  if (status == 127 || status == -1) return "ffmpeg could not be started; is it installed?";
+  if (status != 0) return fmt::format("ffmpeg failed with status {}", status);
+  return {};
+}
+
+}  // namespace rhexis::app

@@ -1,0 +1,82 @@
+/// One vessel from its configuration to its results: owns the time loop and the observers.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "app/configuration.hpp"
+#include "app/console.hpp"
+#include "insitu/pipeline.hpp"
+#include "output/history.hpp"
+#include "output/point_series.hpp"
+#include "output/run_record.hpp"
+#include "parallel/communicator.hpp"
+#include "peridynamics/body.hpp"
+#include "peridynamics/opening.hpp"
+#include "peridynamics/particle_source.hpp"
+
+namespace rhexis::app {
+
+struct RunOptions {
+  std::filesystem::path directory;
+  std::filesystem::path restart;  ///< checkpoint; empty: from the start
+  bool quiet = false;
+};
+
+class VesselRun {
+ public:
+  VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm);
+  ~VesselRun();
+
+  /// Runs to the end, or to the step after an interrupt. Throws RunError (after noting it in run.json) or
+  /// InputError (nothing written).
+  void run();
+
+ private:
+  struct Spent {
+    double solve = 0, output = 0, insitu = 0;  ///< s
+  };
+
+  void build();
+  void open_results();
+  void start_insitu();
+  void say_header();
+  void time_loop();
+  void observe(long step, bool with_output, bool with_pictures);
+  bool pictures_due(long step, bool output_due);
+  void take_notice(long step, std::uint64_t flags);
+  void vent(long step);
+  void write_checkpoint(long step);
+  void read_checkpoint();
+  void finish_pictures();
+  void say_summary();
+  double pressure_at(long step) const;
+  double time_at(long step) const { return static_cast<double>(step) * c_.time_step; }
+  output::Performance performance() const;
+
+  Configuration c_;
+  RunOptions options_;
+  parallel::Communicator comm_;
+  Console console_;
+  peridynamics::Lattice lattice_;
+  std::unique_ptr<peridynamics::Body> body_;
+  std::unique_ptr<peridynamics::ParticleSource> source_;
+  std::unique_ptr<peridynamics::OpeningGauge> gauge_;
+  std::unique_ptr<insitu::Pipeline> pipeline_;
+  std::string renderer_;  ///< who draws, or why nobody does
+  std::optional<output::PointSeries> series_;
+  std::optional<output::History> history_;
+  std::optional<output::RunRecord> record_;
+  output::Results results_;
+
+  long first_step_ = 0, step_ = 0;
+  bool interrupted_ = false;
+  double open_area_ = 0;                       ///< m2
+  double vent_now_ = 1, vent_next_ = 1;        ///< shares of the scheduled pressure, at t_n and t_{n+1}
+  double least_vent_ = 1;
+  Spent spent_;
+  double started_ = 0;                         ///< s, of the clock
+};
+
+}  // namespace rhexis::app

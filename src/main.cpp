@@ -1,0 +1,12 @@
+// rhexis: parse, build, run, report.
+#include "app/commands.hpp"
+#include "app/guarded.hpp"
+#include "parallel/communicator.hpp"
+
+int main(int argc, char** argv) {
+  const rhexis::parallel::Session session(argc, argv);
+  const auto world = rhexis::parallel::Communicator::world();
+  const rhexis::app::Command command = rhexis::app::parse_command_line(argc, argv, world);
+  if (command.action == rhexis::app::Action::nothing) return command.status;
+  return rhexis::app::guarded(world, [&] { rhexis::app::carry_out(command, world); });
+}

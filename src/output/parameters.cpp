@@ -1,0 +1,67 @@
+#include "output/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace rhexis::output {
+
+ParameterList declare(Parameters& p, std::vector<std::string> fields) {
+  std::string all;
+  for (const std::string& field : fields) all += (all.empty() ? "\"" : ", \"") + field + "\"";
+  return {
+      {"output.every_steps", &p.every_steps, "1", "\"auto\"",
+       "Steps between outputs (history, particles, and pictures unless insitu.every_steps says otherwise); "
+       "\"auto\" "
+       "gives 90 outputs.",
+       "", Range::at_least(1)},
+      {"output.every_time", &p.every_time, "s", "\"auto\"",
+       "Simulated time between outputs, instead of every_steps.", "", Range::positive()},
+      {"output.fields",
+       &p.fields,
+       "",
+       "[" + all + "]",
+       "Fields stored in particles.h5 beside the position; an empty list stores no particles.",
+       "Sec. 3.4",
+       {},
+       fields},
+      {"output.precision",
+       &p.precision,
+       "",
+       "\"single\"",
+       "Of the values in particles.h5.",
+       "",
+       {},
+       {"single", "double"}},
+      {"output.checkpoint_every", &p.checkpoint_every, "1", "0",
+       "Steps between checkpoints for --restart; 0: only when a run is interrupted.", "",
+       Range::not_negative()},
+      {"output.movie", &p.movie, "", "true", "Make movie.mp4 of the pictures at the end (needs ffmpeg).", ""},
+      {"output.frames_per_second", &p.frames_per_second, "1", "12", "Of the movie.", "",
+       Range::between(1, 120)},
+  };
+}
+
+std::vector<long> planned_steps(const Parameters& p, long steps, double time_step) {
+  if (p.every_steps && p.every_time) {
+    throw InputError("give either output.every_steps or output.every_time, not both", "output.every_time");
+  }
+  std::vector<long> plan;
+  if (p.every_time) {
+    for (long k = 0;; ++k) {
+      // The first step at or after the time asked for; round-off must not push it one step on.
+      const double exact = static_cast<double>(k) * *p.every_time / time_step;
+      const long step = static_cast<long>(std::ceil(exact - 1e-6));
+      if (step >= steps) break;
+      if (plan.empty() || step > plan.back()) plan.push_back(step);
+    }
+  } else {
+    const long every = p.every_steps ? static_cast<long>(*p.every_steps) : std::max(1L, (steps + 89) / 90);
+    for (long step = 0; step < steps; step += every) plan.push_back(step);
+  }
+  plan.push_back(steps);
+  return plan;
+}
+
+}  // namespace rhexis::output

@@ -1,0 +1,30 @@
+/// Input keys of section output.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parameter.hpp"
+
+namespace rhexis::output {
+
+struct Parameters {
+  std::optional<std::int64_t> every_steps;
+  std::optional<double> every_time;  ///< s
+  std::vector<std::string> fields;
+  std::string precision;  ///< "single" | "double"
+  std::int64_t checkpoint_every = 0;
+  bool movie = true;
+  double frames_per_second = 0;
+};
+
+/// The keys, bound to `p`; `fields` are the names that output.fields may list.
+ParameterList declare(Parameters& p, std::vector<std::string> fields);
+
+/// Steps at which output is due, ascending, with the first (0) and the last (`steps`). Throws InputError
+/// where every_steps and every_time are both given.
+std::vector<long> planned_steps(const Parameters& p, long steps, double time_step);
+
+}  // namespace rhexis::output

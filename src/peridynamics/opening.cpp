@@ -1,0 +1,94 @@
+#include "peridynamics/opening.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace rhexis::peridynamics {
+namespace {
+
+constexpr std::size_t bins = 1024;
+constexpr std::size_t words = bins / 64;
+constexpr double bin_width = 2 * std::numbers::pi / bins;
+
+/// Widest angle between neighbours among the columns of a cross-section, rad.
+double widest_gap(const CrossSection& section) {
+  std::vector<double> angles(section.size());
+  for (std::size_t c = 0; c < section.size(); ++c) angles[c] = std::atan2(section.y[c], section.x[c]);
+  std::sort(angles.begin(), angles.end());
+  double widest = angles.front() + 2 * std::numbers::pi - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) widest = std::max(widest, angles[i] - angles[i - 1]);
+  return widest;
+}
+
+/// Lengths of the runs of clear bits, in bins; the bins close to a circle.
+std::vector<std::size_t> empty_runs(const std::uint64_t* row) {
+  const auto occupied = [&](std::size_t bin) { return (row[bin / 64 % words] >> (bin % 64) & 1) != 0; };
+  std::size_t start = 0;
+  while (start < bins && !occupied(start)) ++start;
+  std::vector<std::size_t> runs;
+  if (start == bins) return {bins};
+  std::size_t run = 0;
+  for (std::size_t i = 1; i <= bins; ++i) {
+    if (!occupied((start + i) % bins)) {
+      ++run;
+    } else if (run > 0) {
+      runs.push_back(run);
+      run = 0;
+    }
+  }
+  return runs;
+}
+
+}  // namespace
+
+OpeningGauge::OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm)
+    : body_(&body),
+      comm_(comm),
+      row_spacing_(lattice.row_spacing),
+      radius_quantum_(std::ldexp(lattice.spacing, -20)),
+      widest_intact_gap_(widest_gap(lattice.section)) {}
+
+double OpeningGauge::area() const {
+  const PointLayout& layout = body_->layout();
+  const auto u = body_->displacement();
+  std::vector<std::uint64_t> occupied(static_cast<std::size_t>(layout.rows) * words);
+  std::vector<std::int64_t> radii(static_cast<std::size_t>(layout.rows));  // sums, in quanta
+  std::size_t i = 0;
+  for (std::int64_t c = 0; c < layout.column_count; ++c) {
+    for (std::int64_t r = 0; r < layout.row_count; ++r, ++i) {
+      const auto x = body_->reference_position(c, r);
+      const double px = x[0] + u[0][i], py = x[1] + u[1][i];
+      const auto row = static_cast<std::size_t>(layout.first_row + r);
+      const double turn = std::atan2(py, px) / (2 * std::numbers::pi) + 0.5;
+      const auto bin = std::min(bins - 1, static_cast<std::size_t>(turn * bins));
+      occupied[row * words + bin / 64] |= std::uint64_t{1} << (bin % 64);
+      radii[row] += std::llround(std::min(std::hypot(px, py) / radius_quantum_, 0x1p40));
+    }
+  }
+  comm_.all_reduce(occupied, parallel::Reduce::bit_or);
+  comm_.all_reduce(radii, parallel::Reduce::sum);
+
+  double area = 0;
+  for (std::size_t row = 0; row < radii.size(); ++row) {
+    const double radius =
+        static_cast<double>(radii[row]) * radius_quantum_ / static_cast<double>(layout.columns);
+    for (std::size_t run : empty_runs(&occupied[row * words])) {
+      // A run of n empty bins lies between particles that are n to n + 2 bins apart.
+      const double gap = static_cast<double>(run + 1) * bin_width;
+      if (gap > 1.5 * widest_intact_gap_) area += (gap - widest_intact_gap_) * radius * row_spacing_;
+    }
+  }
+  return area;
+}
+
+double venting_factor(double open_area, double supply_area) {
+  const double ratio = open_area / supply_area;
+  return 1 / (1 + ratio * ratio);
+}
+
+double orifice_flow(double discharge_coefficient, double area, double pressure, double density) {
+  return discharge_coefficient * area * std::sqrt(2 * std::max(pressure, 0.0) / density);
+}
+
+}  // namespace rhexis::peridynamics

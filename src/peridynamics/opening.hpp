@@ -1,0 +1,41 @@
+/// How far the wall has opened, measured on the particles, and what that does to the pressure.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "parallel/communicator.hpp"
+#include "peridynamics/body.hpp"
+
+namespace rhexis::peridynamics {
+
+/// Area of the holes through a wall, from the gaps that its particles leave around the axis.
+///
+/// Each axial row looks at the angles of its particles, all through the wall: a run of angles without any
+/// particle is a gap. Uniform widening keeps angles, so an intact wall has exactly the gaps of its reference
+/// state; a gap counts once it is half as wide again as the widest of those, and its excess over that width
+/// times the row's mean radius times the row spacing is its area. Exact to about one spacing of width per row.
+/// Angles are sorted into bins that ranks merge by a bitwise or, so the result does not depend on them.
+class OpeningGauge {
+ public:
+  OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);
+
+  /// m2. Collective.
+  double area() const;
+
+ private:
+  const Body* body_;
+  parallel::Communicator comm_;
+  double row_spacing_, radius_quantum_;
+  double widest_intact_gap_;  ///< rad
+};
+
+/// Share of the scheduled pressure left in a vessel that leaks: blood enters through `supply_area` and leaves
+/// through `open_area`, both by the orifice law Q = Cd A sqrt(2 dP / rho); equal flows give
+/// P / P_0 = 1 / (1 + (A_open / A_supply)^2).
+double venting_factor(double open_area, double supply_area);
+
+/// Leak by the orifice law, m3/s: Cd A sqrt(2 P / rho), outside pressure zero.
+double orifice_flow(double discharge_coefficient, double area, double pressure, double density);
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,65 @@
+#include "peridynamics/particle_source.hpp"
+
+#include <stdexcept>
+
+namespace rhexis::peridynamics {
+namespace {
+
+constexpr FieldInfo known_fields[] = {
+    {"displacement", "m", 3},          {"velocity", "m s-1", 3}, {"force_density", "N m-3", 3},
+    {"strain_energy_density", "J m-3", 1}, {"damage", "1", 1},
+};
+
+template <class Components>
+FieldView vector_view(const FieldInfo& info, const Components& c) {
+  return {info, {c[0].data(), c[1].data(), c[2].data()}, c[0].size()};
+}
+
+FieldView scalar_view(const FieldInfo& info, const std::vector<double>& values) {
+  return {info, {values.data(), nullptr, nullptr}, values.size()};
+}
+
+}  // namespace
+
+std::span<const FieldInfo> ParticleSource::all_fields() { return known_fields; }
+
+void ParticleSource::moment(long step, double time_s, const Observation& observation,
+                            std::vector<Annotation> annotations) {
+  step_ = step;
+  time_ = time_s;
+  observation_ = &observation;
+  annotations_ = std::move(annotations);
+  positions_valid_ = false;
+}
+
+FieldView ParticleSource::positions() {
+  if (!positions_valid_) {
+    const PointLayout& l = layout();
+    const auto u = body_->displacement();
+    for (int k = 0; k < 3; ++k) positions_[k].resize(static_cast<std::size_t>(l.local_count()));
+    std::size_t i = 0;
+    for (std::int64_t c = 0; c < l.column_count; ++c) {
+      for (std::int64_t r = 0; r < l.row_count; ++r, ++i) {
+        const auto x = body_->reference_position(c, r);
+        for (int k = 0; k < 3; ++k) positions_[k][i] = x[k] + u[k][i];
+      }
+    }
+    positions_valid_ = true;
+  }
+  return vector_view({"position", "m", 3}, positions_);
+}
+
+FieldView ParticleSource::field(std::string_view name) {
+  const FieldInfo* info = nullptr;
+  for (const FieldInfo& known : known_fields) {
+    if (known.name == name) info = &known;
+  }
+  if (!info) throw std::out_of_range("no field " + std::string(name));
+  if (name == "displacement") return vector_view(*info, body_->displacement());
+  if (name == "velocity") return vector_view(*info, observation_->velocity);
+  if (name == "force_density") return vector_view(*info, observation_->force_density);
+  if (name == "strain_energy_density") return scalar_view(*info, observation_->strain_energy_density);
+  return scalar_view(*info, observation_->damage);
+}
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,228 @@
+"""Pictures while the program runs, on a synthetic vessel (insitu_driver): pictures, costs and failing scripts.
+
+Usage: test_insitu.py DRIVER PLUGIN_DIRECTORY SOURCE_DIRECTORY MPIRUN... [-- unittest arguments]
+No display is needed: DISPLAY is removed. Colours are compared in steps of 1/255.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+from matplotlib import image
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+import synthetic_run
+
+arguments = sys.argv[1 : sys.argv.index("--")] if "--" in sys.argv else sys.argv[1:]
+DRIVER, PLUGINS, SOURCE, MPIRUN = arguments[0], arguments[1], Path(arguments[2]), arguments[3:]
+VESSEL = SOURCE / "catalyst_scripts" / "vessel.py"
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "DISPLAY"} | {
+    "RHEXIS_PLUGIN_DIR": PLUGINS,
+    "RHEXIS_SCRIPT_TIMEOUT": "2",
+    "OMP_NUM_THREADS": "2",
+}
+BUILT = (Path(PLUGINS) / "librhexis_catalyst.so").exists()
+MINIMAL = 'from paraview.simple import *\nparticles = PVTrivialProducer(registrationName="particles")\n'
+RANK = "from paraview.vtk.vtkParallelCore import vtkMultiProcessController\n" \
+       "rank = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()\n"
+
+
+def read(path):
+    """An image as whole numbers 0 ... 255, rows x columns x RGB."""
+    return numpy.rint(255 * image.imread(path)[..., :3]).astype(int)
+
+
+def like(picture, colour, tolerance=12):
+    return (numpy.abs(picture - colour) <= tolerance).all(axis=-1)
+
+
+class DriverTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.images = self.folder / "images"
+
+    def script(self, text, name="script.py"):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def run_driver(self, *scripts, frames=2, ranks=1, renderer="automatic", status=0):
+        """Output lines of a run; errors of VTK or Python on stderr fail the test."""
+        command = [*MPIRUN, "-n", str(ranks)] if ranks > 1 else []
+        command += [DRIVER, str(self.images), renderer, str(frames), *map(str, scripts)]
+        result = subprocess.run(command, env=ENVIRONMENT, cwd=self.folder, capture_output=True, text=True, timeout=50)
+        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        if status == 0:
+            self.assertEqual(result.stderr, "")
+        self.errors = result.stderr
+        return result.stdout.splitlines()
+
+    def failure(self, *scripts, ranks=1, frames=2):
+        """The one message that every rank gives when a script fails."""
+        messages = [line for line in self.run_driver(*scripts, ranks=ranks, frames=frames, status=3) if "error:" in line]
+        self.assertEqual(len(messages), ranks)
+        self.assertEqual(len(set(messages)), 1)
+        self.assertNotIn("Traceback", self.errors)
+        return messages[0].removeprefix("error: ")
+
+
+@unittest.skipUnless(BUILT, "built without ParaView")
+class Pictures(DriverTest):
+    def check_picture(self, path):
+        picture = read(path)
+        self.assertEqual(picture.shape, (720, 1280, 3))
+        self.assertTrue((picture[[0, -1]] == 255).all() and (picture[:, [0, -1]] == 255).all(), "something is clipped")
+        body = ~like(picture, 255, 3)
+        left, right = body[60:650, :440], body[60:650, 640:1080]
+        for half in (left, right):
+            rows, columns = numpy.nonzero(half)
+            self.assertGreater(numpy.ptp(rows), 500)
+            self.assertGreater(half.sum(), 80_000)
+            self.assertAlmostEqual(columns.mean(), 280, delta=40)
+        return picture
+
+    def test_pictures_are_the_same_on_1_2_and_4_ranks(self):
+        pictures = []
+        for ranks in (1, 2, 4):
+            self.run_driver(VESSEL, ranks=ranks)
+            names = sorted(path.name for path in self.images.iterdir())
+            self.assertEqual(names, ["vessel_000000.png", "vessel_000050.png"])
+            pictures.append(self.check_picture(self.images / names[-1]))
+        # Shades where a ridge of spheres meets another may differ by the order in which ranks are composed.
+        for other in pictures[1:]:
+            self.assertLess((numpy.abs(other - pictures[0]).max(axis=-1) > 8).mean(), 1e-3)
+
+    def test_colours_show_displacement_and_damage(self):
+        lines = self.run_driver(VESSEL)
+        rest, torn = read(self.images / "vessel_000000.png"), read(self.images / "vessel_000050.png")
+        # Displacement: at rest only the dark end of the map; torn, also the green and yellow of 1 to 2 mm.
+        yellowish = lambda picture: ((picture[..., 1] > picture[..., 2] + 60) & (picture[..., 1] > 90))[60:650, :440]
+        self.assertEqual(yellowish(rest).sum(), 0)
+        self.assertGreater(yellowish(torn).sum(), 1000)
+        # Damage: at rest all grey; torn, red lips.
+        reddish = lambda picture: (picture[..., 0] > picture[..., 1] + 60)[60:650, 640:1080]
+        self.assertEqual(reddish(rest).sum(), 0)
+        self.assertGreater(reddish(torn).sum(), 1000)
+        # Only what the script declares was paid for, once a frame.
+        self.assertEqual(json.loads(lines[-1])["asked"], {"displacement": 2, "damage": 2})
+
+    def test_fields_and_image_directory(self):
+        script = self.script(
+            'fields = ["damage"]\n' + MINIMAL +
+            "from paraview import catalyst\n"
+            "view = CreateRenderView(ViewSize=[64, 64])\n"
+            "Show(particles, view)\n"
+            'extract = CreateExtractor("PNG", view, registrationName="x")\n'
+            'extract.Writer.FileName = "small_{timestep:06d}.png"\n'
+            "extract.Trigger = 'TimeStep'\nextract.Trigger.Frequency = 100\n"
+            "options = catalyst.Options()\noptions.ExtractsOutputDirectory = 'datasets'\n",
+            "numpy.py",  # the name of another module
+        )
+        lines = [json.loads(line) for line in self.run_driver(script, frames=4)]
+        self.assertEqual([line["wanted"] for line in lines[1:5]], [1, 0, 1, 0])
+        self.assertEqual(lines[-1]["asked"], {"damage": 2})
+        self.assertEqual(sorted(path.name for path in self.images.iterdir()), ["small_000000.png", "small_000100.png"])
+        self.assertFalse((self.folder / "datasets").exists())
+
+    def test_script_made_in_paraview_for_the_saved_file(self):
+        script = self.script(
+            "from paraview import catalyst\nfrom paraview.simple import *\noptions = catalyst.Options()\n"
+            'source = XDMFReader(registrationName="particles.xdmf", FileNames=["/elsewhere/particles.xdmf"])\n'
+            'source.PointArrayStatus = ["damage"]\n'
+            "def catalyst_execute(info):\n"
+            '    source.UpdatePipeline()\n'
+            '    assert source.PointData["damage"].GetRange()[1] <= 0.5\n'
+            '    data = source.GetClientSideObject().GetOutputDataObject(0)\n'
+            '    assert data.GetFieldData().GetArray("pressure").GetTuple1(0) == 238e3\n'
+            '    assert data.GetNumberOfPoints() == data.GetNumberOfCells() == 54800\n'
+        )
+        asked = json.loads(self.run_driver(script)[-1])["asked"]
+        self.assertEqual(set(asked.values()), {2})
+        self.assertEqual(len(asked), 5)
+
+    def test_egl_draws_the_same(self):
+        template = SOURCE / "catalyst_scripts" / "template.py"
+        lines = self.run_driver(template, frames=1, renderer="osmesa")
+        self.assertIn("OSMesa", lines[0])
+        first = read(self.images / "damage_000000.png")
+        self.assertGreater((~like(first, 255)).mean(), 0.1)
+        lines = self.run_driver(template, frames=1, renderer="egl")
+        self.assertIn("EGL", lines[0])
+        self.assertLess((numpy.abs(read(self.images / "damage_000000.png") - first).max(axis=-1) > 8).mean(), 1e-3)
+
+
+@unittest.skipUnless(BUILT, "built without ParaView")
+class Failures(DriverTest):
+    def test_what_is_missing_is_named(self):
+        lines = self.run_driver(VESSEL, renderer="x11", status=4)
+        self.assertIn("DISPLAY", lines[0])
+        missing = self.folder / "missing.py"
+        self.assertEqual(self.failure(missing, ranks=2),
+                         f"Catalyst script {missing}: No such file or directory (on rank 0)")
+
+    def test_syntax_error(self):
+        script = self.script("x = 1\nfor in x:\n")
+        self.assertEqual(self.failure(script), f"Catalyst script {script}, line 2: SyntaxError: invalid syntax")
+
+    def test_unknown_field(self):
+        script = self.script('fields = ["damag"]\n')
+        self.assertIn(f"{script} asks for the field 'damag'; there are: displacement, ", self.failure(script))
+
+    def test_raising_at_start_on_one_rank(self):
+        script = self.script(RANK + MINIMAL + "if rank == 1: 1 / 0\n")
+        self.assertEqual(self.failure(script, ranks=2),
+                         f"Catalyst script {script}, line 5: ZeroDivisionError: division by zero (on rank 1)")
+
+    def test_raising_at_a_later_frame(self):
+        script = self.script(MINIMAL + "def catalyst_execute(info):\n  if info.timestep == 50: raise SystemExit(7)\n")
+        self.assertEqual(self.failure(script), f"Catalyst script {script}, line 4: SystemExit: 7")
+
+    def test_raising_at_the_end(self):
+        script = self.script(MINIMAL + "def catalyst_finalize(): raise KeyError(1)\n")
+        self.assertEqual(self.failure(script), f"Catalyst script {script}, line 3: KeyError: 1")
+
+    def test_raising_in_a_filter(self):
+        script = self.script(
+            MINIMAL + 'f = ProgrammableFilter(Input=particles, Script="raise ValueError(5)")\n'
+            "def catalyst_execute(info): f.UpdatePipeline()\n"
+        )
+        self.assertEqual(self.failure(script), "Catalyst script: ValueError: 5")
+
+    def test_stuck_ranks_end_the_run(self):
+        script = self.script(RANK + MINIMAL + "def catalyst_execute(info):\n  if rank == 1: 1 / 0\n"
+                             "  vtkMultiProcessController.GetGlobalController().Barrier()\n")
+        self.run_driver(script, ranks=2, status=3)
+        self.assertIn(f"error: Catalyst script {script}, line 6: ZeroDivisionError: division by zero (on rank 1;",
+                      self.errors)
+
+
+@unittest.skipUnless(BUILT, "built without ParaView")
+class Afterwards(unittest.TestCase):
+    def test_saved_particles_give_pictures_a_movie_and_curves(self):
+        scripts = SOURCE / "postprocessing"
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            synthetic_run.write(folder, frames=2)
+            for command in (
+                [scripts / "pvpython_headless", scripts / "render_particles.py", folder / "particles.xdmf"],
+                [scripts / "make_movie.sh", folder / "images"],
+                ["/usr/bin/python3", scripts / "plot_history.py", folder / "history.csv"],
+            ):
+                result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
+                self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
+            self.assertEqual(read(folder / "images" / "vessel_000050.png").shape, (720, 1280, 3))
+            self.assertEqual(read(folder / "history.png").shape[1], 1080)
+            self.assertGreater((folder / "movie.mp4").stat().st_size, 10_000)
+
+
+if __name__ == "__main__":
+    rest = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    unittest.main(argv=[sys.argv[0], *rest])
