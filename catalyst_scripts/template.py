@@ -56,5 +56,8 @@ options = catalyst.Options()
 
 
 def catalyst_execute(info):
-    """Optional: called at every step, on every rank, before the extractors: to change the pipeline or to compute."""
+    """Optional: called at every step, on every rank, before the extractors: to change the pipeline or to compute.
+
+    What Python reads here of the data is this rank's part. An exception ends the run, on all ranks.
+    """
     view.OrientationAxesVisibility = 1 if info.timestep == 0 else 0

@@ -1,9 +1,11 @@
 """Catalyst script: the vessel at every output step, displacement beside damage, as vessel_<step>.png."""
 
-from paraview import catalyst
-from paraview.simple import CreateExtractor, PVTrivialProducer
+import os
 
-from vessel_picture import HEIGHT, WIDTH, VesselPicture, field_value
+from paraview import catalyst
+from paraview.simple import PVTrivialProducer
+
+from vessel_picture import VesselPicture, field_value
 
 fields = ["displacement", "damage"]  # the program computes and sends no others
 
@@ -11,10 +13,8 @@ options = catalyst.Options()
 particles = PVTrivialProducer(registrationName="particles")
 picture = VesselPicture(particles)
 
-images = CreateExtractor("PNG", picture.view, registrationName="vessel")
-images.Writer.FileName = "vessel_{timestep:06d}.png"
-images.Writer.ImageResolution = [WIDTH, HEIGHT]
-
 
 def catalyst_execute(info):
-    picture.update(info.timestep, info.time, field_value(particles, "pressure"))
+    # The program sets this directory: the run's folder of images.
+    path = os.path.join(options.ExtractsOutputDirectory, f"vessel_{info.timestep:06d}.png")
+    picture.save(path, info.timestep, info.time, field_value(particles, "pressure"))

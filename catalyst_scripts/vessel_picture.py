@@ -10,10 +10,12 @@ import numpy
 from paraview.simple import (
     Calculator,
     ColorBy,
+    CreateLayout,
     CreateRenderView,
     GetColorTransferFunction,
     GetScalarBar,
     Line,
+    SaveScreenshot,
     Show,
     Text,
     UpdatePipeline,
@@ -72,7 +74,7 @@ def round_up(value):
 
 
 class VesselPicture:
-    """One view with the particles twice: on the left (or above) coloured by displacement, beside it by damage."""
+    """Two views of the same particles from the same side: by displacement on the left (or above), beside it by damage."""
 
     def __init__(self, particles):
         UpdatePipeline(proxy=particles)
@@ -81,32 +83,37 @@ class VesselPicture:
         self.length = high[2] - low[2]
         self.centre = 0.5 * (low + high)
         self.upright = self.length < SLENDER * 2 * self.radius
+        self.width, self.height = (WIDTH // 2, HEIGHT) if self.upright else (WIDTH, HEIGHT // 2)  # of one view
         self.largest_mm = 0.0
-
-        self.view = CreateRenderView()
-        self.view.ViewSize = [WIDTH, HEIGHT]
-        self.view.UseColorPaletteForBackground = 0
-        self.view.Background = [1.0, 1.0, 1.0]
-        self.view.OrientationAxesVisibility = 0
-        self.view.CenterAxesVisibility = 0
-        self.view.UseFXAA = 1
-        self._place_camera()
+        self._choose_camera()
 
         self.scaled = Calculator(Input=particles, Function="1000*mag(displacement)", ResultArrayName=DISPLACEMENT_MM)
-        self.displacement_colours = self._viridis(self._show(self.scaled, DISPLACEMENT_MM, -1, spacing))
-        self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", first=True)
-        damage_colours = self._grey_to_red(self._show(particles, "damage", +1, spacing))
-        legend = self._legend(damage_colours, "Damage (fraction)", first=False)
+        self.views = first, second = self._view(), self._view()
+        self.displacement_colours = self._viridis(self._show(self.scaled, DISPLACEMENT_MM, first, spacing))
+        self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", first)
+        damage_colours = self._grey_to_red(self._show(particles, "damage", second, spacing))
+        legend = self._legend(damage_colours, "Damage (fraction)", second)
         legend.CustomLabels = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]
-        self._scale_bar()
-        self.caption = self._text("", 24, "Upper Center")
+        self.moment = text(first, 22, "Upper Left Corner")
+        self.step = text(second, 22, "Upper Right Corner")
+        self._scale_bar(first)
 
-    def update(self, step, time_s, pressure_pa=None):
-        """Sets caption and colours for the data of this moment; the view draws when it is saved."""
+        self.layout = CreateLayout("vessel")
+        (self.layout.SplitHorizontal if self.upright else self.layout.SplitVertical)(0, 0.5)
+        self.layout.AssignView(1, first)
+        self.layout.AssignView(2, second)
+        self.layout.SetSize(WIDTH, HEIGHT)
+
+    def save(self, path, step, time_s, pressure_pa=None):
+        """Draws the data of this moment."""
         pressure = "" if pressure_pa is None else f"      p = {pressure_pa / 1e3:.1f} kPa"
-        self.caption.Text = f"t = {time_s * 1e3:.3f} ms{pressure}      step {step}"
+        self.moment.Text = f"t = {time_s * 1e3:.3f} ms{pressure}"
+        self.step.Text = f"step {step}"
+        for view in self.views:
+            view.ViewTime = time_s
         UpdatePipeline(time=time_s, proxy=self.scaled)
         self._fit_displacement_range()
+        SaveScreenshot(str(path), self.layout, ImageResolution=[WIDTH, HEIGHT], SeparatorWidth=0)
 
     def _fit_displacement_range(self):
         """Zero to the largest displacement so far, rounded up (1, 2, 5, 10 ...), so that few frames of a
@@ -121,41 +128,48 @@ class VesselPicture:
         self.displacement_colours.RescaleTransferFunction(0.0, top)
         self.displacement_legend.CustomLabels = [top * fifth / 5 for fifth in range(6)]
 
-    def _place_camera(self):
-        """Parallel projection, so that both halves are seen from the same side and lengths can be compared."""
-        sight = numpy.array(
+    def _choose_camera(self):
+        """Parallel projection, so that lengths can be compared; looking down on the vessel's end a little."""
+        self.sight = numpy.array(
             [math.cos(ELEVATION) * math.cos(AZIMUTH), math.cos(ELEVATION) * math.sin(AZIMUTH), math.sin(ELEVATION)]
         )
         axis = numpy.array([0.0, 0.0, 1.0])
-        along = axis - axis.dot(sight) * sight
+        along = axis - axis.dot(self.sight) * self.sight
         along /= numpy.linalg.norm(along)
-        self.right, self.up = (numpy.cross(along, sight), along) if self.upright else (along, numpy.cross(sight, along))
 
-        # Room for the vessel and for walls that move out by another radius, in each half of the picture.
+        # Room for the vessel and for walls that move out by another radius; `scale` is half of a view's height.
+        # The legend stands on the right of an upright vessel, below a lying one, which make way for it a little.
         room = 2 * self.radius
         long_side = self.length * math.cos(ELEVATION) + 2 * room * math.sin(ELEVATION)
+        shape = self.width / self.height
         if self.upright:
-            self.scale = 0.5 * max(long_side / 0.90, 2 * room / 0.64 * HEIGHT / (WIDTH / 2))
-            self.shift = 0.25 * 2 * self.scale * WIDTH / HEIGHT * self.right
+            self.right, self.up = numpy.cross(along, self.sight), along
+            self.scale = 0.5 * max(long_side / 0.90, 2 * room / 0.64 / shape)
+            self.focus = self.centre + 0.06 * 2 * self.scale * shape * self.right
         else:
-            self.scale = 0.5 * max(long_side / 0.92 * HEIGHT / WIDTH, 2 * room / 0.25)
-            self.shift = 0.2 * 2 * self.scale * -self.up
-        self.sight = sight
-        # Upright vessels stand a little to the left of their half's middle, as the legend stands to their right.
-        self.focus = self.centre + (0.12 if self.upright else 0.0) * numpy.linalg.norm(self.shift) * self.right
-        view = self.view
+            self.right, self.up = along, numpy.cross(self.sight, along)
+            self.scale = 0.5 * max(long_side / 0.92 / shape, 2 * room / 0.6)
+            self.focus = self.centre - 0.08 * 2 * self.scale * self.up
+
+    def _view(self):
+        view = CreateRenderView()
+        view.ViewSize = [self.width, self.height]
+        view.UseColorPaletteForBackground = 0
+        view.Background = [1.0, 1.0, 1.0]
+        view.OrientationAxesVisibility = 0
+        view.CenterAxesVisibility = 0
         view.CameraParallelProjection = 1
         view.CameraParallelScale = self.scale
         view.CameraFocalPoint = list(self.focus)
-        view.CameraPosition = list(self.focus + 10 * (self.length + self.radius) * sight)
+        view.CameraPosition = list(self.focus + 10 * (self.length + self.radius) * self.sight)
         view.CameraViewUp = list(self.up)
+        return view
 
-    def _show(self, source, array, side, spacing):
-        display = Show(source, self.view)
+    def _show(self, source, array, view, spacing):
+        display = Show(source, view)
         display.Representation = "Points"
         display.RenderPointsAsSpheres = 1
-        display.PointSize = max(1.5, SPHERE * spacing / (2 * self.scale) * HEIGHT)
-        display.Position = list(side * self.shift)
+        display.PointSize = max(1.5, SPHERE * spacing / (2 * self.scale) * self.height)
         display.Interpolation = "Gouraud"
         display.Ambient = 0.2
         display.Specular = 0.15
@@ -179,47 +193,49 @@ class VesselPicture:
         colours.RGBPoints = points
         return colours
 
-    def _legend(self, colours, title, first):
-        bar = GetScalarBar(colours, self.view)
+    def _legend(self, colours, title, view):
+        bar = GetScalarBar(colours, view)
         bar.Title, bar.ComponentTitle = title, ""
         bar.TitleColor = bar.LabelColor = BLACK
         bar.TitleFontFamily = bar.LabelFontFamily = "Arial"
-        bar.TitleFontSize, bar.LabelFontSize = 18, 18
+        bar.TitleFontSize = bar.LabelFontSize = 18
         bar.HorizontalTitle = 1
         bar.AutomaticLabelFormat, bar.LabelFormat = 0, "%g"
         bar.UseCustomLabels, bar.AddRangeLabels = 1, 0
         bar.ScalarBarThickness = 18
+        bar.DrawBackground, bar.BackgroundColor, bar.BackgroundPadding = 1, [1.0, 1.0, 1.0, 0.8], 6  # on top of fragments
         bar.WindowLocation = "Any Location"
         if self.upright:
-            bar.Orientation, bar.ScalarBarLength = "Vertical", 0.5
-            bar.Position = [0.40, 0.22] if first else [0.90, 0.22]
+            bar.Orientation, bar.ScalarBarLength, bar.Position = "Vertical", 0.5, [0.80, 0.22]
         else:
-            bar.Orientation, bar.ScalarBarLength = "Horizontal", 0.35
-            bar.Position = [0.325, 0.52] if first else [0.325, 0.10]
+            bar.Orientation, bar.ScalarBarLength, bar.Position = "Horizontal", 0.35, [0.325, 0.06]
         bar.Visibility = 1
         return bar
 
-    def _scale_bar(self):
-        """A line of a round length at the bottom, with its length in millimetres beneath."""
-        length = round_up(0.05 * 2 * self.scale * WIDTH / HEIGHT)
-        middle = self.focus - 0.88 * self.scale * self.up + 4 * self.radius * self.sight
-        line = Line(Point1=list(middle - 0.5 * length * self.right), Point2=list(middle + 0.5 * length * self.right))
-        display = Show(line, self.view)
+    def _scale_bar(self, view):
+        """A line of a round length at the bottom left, with its length in millimetres above."""
+        width = 2 * self.scale * self.width / self.height
+        length = round_up((0.1 if self.upright else 0.05) * width)
+        corner = self.focus - 0.93 * self.scale * self.up - 0.47 * width * self.right + 4 * self.radius * self.sight
+        display = Show(Line(Point1=list(corner), Point2=list(corner + length * self.right)), view)
         display.AmbientColor = display.DiffuseColor = BLACK
         display.LineWidth = 3
-        self._text(f"{1e3 * length:g} mm", 18, "Lower Center")
+        text(view, 18, "Any Location", [0.03, 0.05]).Text = f"{1e3 * length:g} mm"
 
-    def _text(self, text, size, place):
-        source = Text(Text=text)
-        display = Show(source, self.view)
-        display.Color = BLACK
-        display.FontFamily = "Arial"
-        display.FontSize = size
-        display.WindowLocation = place
-        return source
+
+def text(view, size, place, position=(0.0, 0.0)):
+    """An empty line of text at one of ParaView's named places or, for "Any Location", at a position (0 ... 1)."""
+    source = Text(Text="")
+    display = Show(source, view)
+    display.Color = BLACK
+    display.FontFamily = "Arial"
+    display.FontSize = size
+    display.WindowLocation = place
+    display.Position = list(position)
+    return source
 
 
 def field_value(particles, name):
-    """A number that the program sends with the particles (e.g. "pressure", in Pa), None where it sends none."""
+    """A number that goes with the particles (e.g. "pressure", in Pa), None where there is none of this name."""
     array = particles.GetClientSideObject().GetOutputDataObject(0).GetFieldData().GetArray(name)
     return None if array is None else array.GetTuple1(0)

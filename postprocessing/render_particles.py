@@ -3,22 +3,20 @@
     postprocessing/pvpython_headless postprocessing/render_particles.py results/perivessel/particles.xdmf
     ... [-o DIRECTORY] [--every N]
 
-Images vessel_<step>.png go to DIRECTORY (default: images/ beside the file). Pressures come from history.csv
-beside the file, if it is there.
+Images vessel_<step>.png go to DIRECTORY (default: images/ beside the file).
 """
 
 import argparse
-import csv
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-from paraview.simple import SaveScreenshot, XDMFReader
+from paraview.simple import XDMFReader
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "catalyst_scripts"))
 
-from vessel_picture import HEIGHT, WIDTH, VesselPicture
+from vessel_picture import VesselPicture, field_value
 
 
 def read_frames(path):
@@ -32,14 +30,6 @@ def read_frames(path):
         step = re.search(r":/position/(\d+)", data_sets)
         frames.append((float(time.get("Value")), int(step.group(1)) if step else len(frames)))
     return frames
-
-
-def read_pressures(path):
-    """Pressure in Pa by step, empty without a history."""
-    if not path.exists():
-        return {}
-    with open(path, encoding="utf-8") as file:
-        return {int(row["step"]): float(row["pressure_Pa"]) for row in csv.DictReader(file) if row["pressure_Pa"]}
 
 
 def main():
@@ -56,15 +46,13 @@ def main():
     frames = read_frames(arguments.particles)
     if not frames:
         sys.exit(f"error: {arguments.particles} holds no moment in time")
-    pressures = read_pressures(arguments.particles.parent / "history.csv")
     particles = XDMFReader(FileNames=[str(arguments.particles)])
     particles.PointArrayStatus = ["displacement", "damage"]
     picture = VesselPicture(particles)
     for time_s, step in frames[:: arguments.every]:
-        picture.view.ViewTime = time_s
-        picture.update(step, time_s, pressures.get(step))
+        particles.UpdatePipeline(time_s)
         image = output / f"vessel_{step:06d}.png"
-        SaveScreenshot(str(image), picture.view, ImageResolution=[WIDTH, HEIGHT])
+        picture.save(image, step, time_s, field_value(particles, "pressure"))
         print(image)
 
 

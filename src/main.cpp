@@ -8,5 +8,5 @@ int main(int argc, char** argv) {
   const auto world = rhexis::parallel::Communicator::world();
   const rhexis::app::Command command = rhexis::app::parse_command_line(argc, argv, world);
   if (command.action == rhexis::app::Action::nothing) return command.status;
-  return rhexis::app::guarded(world, [&] { rhexis::app::carry_out(command, world); });
+  return rhexis::app::guarded(world, [&] { return rhexis::app::carry_out(command, world); });
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "app/console.hpp"
+#include "core/format.hpp"
 #include "peridynamics/body.hpp"
 #include "peridynamics/bond_kernel.hpp"
 
@@ -55,19 +56,19 @@ void check(const Configuration& c, parallel::Communicator comm) {
   Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
-  console.item("spacing", with_prefix(lattice.spacing, "m") + fmt::format(" ({:.1f} across the wall), {} between rows",
+  console.item("spacing", quantity(lattice.spacing, "m") + fmt::format(" ({:.1f} across the wall), {} between rows",
                                                                           (c.vessel.outer_radius - c.vessel.inner_radius) /
                                                                               lattice.spacing,
-                                                                          with_prefix(lattice.row_spacing, "m")));
-  console.item("horizon", with_prefix(lattice.horizon, "m") +
+                                                                          quantity(lattice.row_spacing, "m")));
+  console.item("horizon", quantity(lattice.horizon, "m") +
                               fmt::format(" ({:.4g} spacings)", lattice.horizon / lattice.spacing));
   console.item("particles", fmt::format("{} = {} columns x {} rows", grouped(lattice.particles()),
                                         lattice.section.size(), lattice.rows));
   console.item("bonds", fmt::format("{}, at most {} a particle",
                                     grouped(peridynamics::count_bonds(lattice, families, periodic)),
                                     peridynamics::largest_family(lattice, families, periodic)));
-  console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps", with_prefix(c.time_step, "s"),
-                                        100 * c.time_step / c.stable_time_step, with_prefix(c.stable_time_step, "s"),
+  console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps", quantity(c.time_step, "s"),
+                                        100 * c.time_step / c.stable_time_step, quantity(c.stable_time_step, "s"),
                                         grouped(c.steps)));
   console.item("outputs", grouped(static_cast<long long>(c.output_steps.size())));
   console.item("memory", fmt::format("about {:.0f} MB for the wall, all ranks together",

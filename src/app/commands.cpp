@@ -46,17 +46,17 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   return command;
 }
 
-void carry_out(const Command& command, parallel::Communicator comm) {
+int carry_out(const Command& command, parallel::Communicator comm) {
   if (command.action == Action::keys) {
     Configuration unused;
     const std::string text = input::describe_keys(declare(unused), command.section);
     if (comm.is_root()) fmt::print("{}", text);
-    return;
+    return 0;
   }
   Configuration configuration = read_configuration(command.file, command.overrides, comm);
   if (command.action == Action::check) {
     check(configuration, comm);
-    return;
+    return 0;
   }
   RunOptions options;
   options.directory = command.directory.empty()
@@ -64,7 +64,7 @@ void carry_out(const Command& command, parallel::Communicator comm) {
                           : std::filesystem::path(command.directory);
   options.restart = command.restart;
   options.quiet = command.quiet;
-  VesselRun(std::move(configuration), options, comm).run();
+  return VesselRun(std::move(configuration), options, comm).run() == Ending::interrupted ? 130 : 0;
 }
 
 }  // namespace rhexis::app

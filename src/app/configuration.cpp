@@ -41,8 +41,8 @@ void settle_time_step(Configuration& c) {
   c.time_step = c.vessel.time_step.value_or(c.vessel.step_fraction * c.stable_time_step);
   if (c.time_step > c.stable_time_step) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +
-                         text(c.stable_time_step) + " s; take less, or \"auto\" for " +
-                         text(c.vessel.step_fraction * c.stable_time_step) + " s",
+                         quantity(c.stable_time_step, "s") + "; take less, or \"auto\" for " +
+                         quantity(c.vessel.step_fraction * c.stable_time_step, "s"),
                      "time.step");
   }
   const double steps = c.vessel.end_time / c.time_step;

@@ -9,23 +9,6 @@
 
 namespace rhexis::app {
 
-std::string with_prefix(double value, const std::string& unit, int digits) {
-  if (!std::isfinite(value)) return "-";
-  struct Prefix {
-    double factor;
-    const char* name;
-  };
-  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}};
-  // Rounded first, so that 999.99 does not become "1000".
-  const double rounded = std::stod(fmt::format("{:.{}g}", value, digits));
-  for (const Prefix& p : prefixes) {
-    if (std::abs(rounded) >= p.factor * (1 - 1e-12)) {
-      return fmt::format("{:.{}g} {}{}", rounded / p.factor, digits, p.name, unit);
-    }
-  }
-  return fmt::format("{:.{}g} {}", rounded, digits, unit);
-}
-
 std::string grouped(long long count) {
   const std::string digits = std::to_string(std::abs(count));
   std::string text = count < 0 ? "-" : "";

@@ -6,9 +6,6 @@
 
 namespace rhexis::app {
 
-/// "0.5 mm", "238 kPa", "2.25 ms": `value` in SI with a metric prefix before `unit`; "-" for nan.
-std::string with_prefix(double value, const std::string& unit, int digits = 4);
-
 /// "54,800".
 std::string grouped(long long count);
 

@@ -11,7 +11,7 @@
 
 namespace rhexis::app {
 
-/// Runs `work`; returns 0, or 2 for wrong input, or 3 for a failure while running. Both kinds of error are thrown
+/// Runs `work` and returns its exit status, or 2 for wrong input, or 3 for a failure while running. Both kinds of error are thrown
 /// on all ranks together, so one of them speaks; anything else is one rank's own and ends the program for all.
 template <class Work>
 int guarded(parallel::Communicator comm, const Work& work) {
@@ -20,8 +20,7 @@ int guarded(parallel::Communicator comm, const Work& work) {
     if (comm.is_root()) fmt::print(stderr, "rhexis: {}\n", what);
   };
   try {
-    work();
-    return 0;
+    return work();
   } catch (const InputError& error) {
     say(error.what());
     return 2;

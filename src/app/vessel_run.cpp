@@ -10,6 +10,7 @@
 #include "app/movie.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "output/checkpoint.hpp"
 #include "output/directory.hpp"
 #include "peridynamics/bond_kernel.hpp"
@@ -68,7 +69,7 @@ double VesselRun::pressure_at(long step) const {
   return peridynamics::scheduled_pressure(c_.vessel, time_at(step));
 }
 
-void VesselRun::run() {
+Ending VesselRun::run() {
   build();
   open_results();
   try {
@@ -87,6 +88,7 @@ void VesselRun::run() {
     record_->complete(results_, performance());
   }
   say_summary();
+  return interrupted_ ? Ending::interrupted : Ending::completed;
 }
 
 void VesselRun::build() {
@@ -201,16 +203,16 @@ void VesselRun::take_notice(long step, std::uint64_t flags) {
   if (flags & Flag::unstable) {
     throw RunError(fmt::format("the run became unstable at step {} ({}): a particle moved more than a spacing in one "
                                "step; use a smaller time.step (now {}, stable up to {} for small strain)",
-                               step, with_prefix(time_at(step), "s"), with_prefix(c_.time_step, "s"),
-                               with_prefix(c_.stable_time_step, "s")));
+                               step, quantity(time_at(step), "s"), quantity(c_.time_step, "s"),
+                               quantity(c_.stable_time_step, "s")));
   }
   if (flags & Flag::broken && !results_.first_bond_break_s) results_.first_bond_break_s = time_at(step);
   if (flags & Flag::ruptured && !results_.rupture_onset_s) {
     results_.rupture_onset_s = time_at(step);
     results_.max_displacement_at_onset_m = body_->max_displacement();
     console_.line(fmt::format("  rupture begins at {} under {}, largest displacement {}",
-                              with_prefix(time_at(step), "s"), with_prefix(pressure_at(step) * vent_now_, "Pa"),
-                              with_prefix(*results_.max_displacement_at_onset_m, "m", 3)));
+                              quantity(time_at(step), "s"), quantity(pressure_at(step) * vent_now_, "Pa"),
+                              quantity(*results_.max_displacement_at_onset_m, "m", 3)));
   }
 }
 
@@ -232,8 +234,8 @@ void VesselRun::time_loop() {
     const bool pictures = pictures_due(step_, due);
     if (due || pictures) observe(step_, due, pictures);
     console_.progress(step_, c_.steps,
-                      fmt::format("t {}  P {}", with_prefix(time_at(step_), "s", 3),
-                                  with_prefix(pressure_at(step_) * vent_now_, "Pa", 3)));
+                      fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
+                                  quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
     const bool saves = c_.output.checkpoint_every > 0 && step_ > first_step_ &&
                        step_ % c_.output.checkpoint_every == 0;
     if (interrupted_ || saves) write_checkpoint(step_);
@@ -346,19 +348,19 @@ void VesselRun::say_header() {
   for (const std::string& warning : c_.warnings) console_.warning(warning);
   console_.item("input", c_.file);
   console_.item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
-                                      with_prefix(v.inner_radius, "m"), with_prefix(v.outer_radius, "m"),
-                                      with_prefix(v.length, "m"), v.ends));
+                                      quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
+                                      quantity(v.length, "m"), v.ends));
   console_.item("particles",
                 fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}", grouped(*results_.particles),
                             lattice_.section.size(), lattice_.rows, v.cross_section,
-                            with_prefix(lattice_.spacing, "m"), with_prefix(lattice_.horizon, "m")));
+                            quantity(lattice_.spacing, "m"), quantity(lattice_.horizon, "m")));
   console_.item("bonds", fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
                                      *results_.family_max, v.bond_precision));
   console_.item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
-                                    with_prefix(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
-                                    with_prefix(c_.stable_time_step, "s")));
+                                    quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
+                                    quantity(c_.stable_time_step, "s")));
   console_.item("load", fmt::format("{} ({}), layer {}, venting {}",
-                                    with_prefix(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
+                                    quantity(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
                                     v.schedule, v.layer, v.venting));
   console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
                                         parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
@@ -369,16 +371,16 @@ void VesselRun::say_header() {
 void VesselRun::say_summary() {
   const output::Results& r = results_;
   const output::Performance p = performance();
-  const auto at = [](const std::optional<double>& time) { return time ? with_prefix(*time, "s") : "none"; };
+  const auto at = [](const std::optional<double>& time) { return time ? quantity(*time, "s") : "none"; };
   console_.line(interrupted_ ? "Interrupted; everything so far is saved." : "Done.");
   console_.item("first break", at(r.first_bond_break_s));
   console_.item("rupture", r.rupture_onset_s
                                ? fmt::format("begins at {} (damage {} somewhere), {} long at the end",
                                              at(r.rupture_onset_s), peridynamics::rupture_damage,
-                                             with_prefix(*r.rupture_length_m, "m"))
+                                             quantity(*r.rupture_length_m, "m"))
                                : "none");
   console_.item("at the end", fmt::format("largest displacement {}, largest damage {:.0f} %, opening {:.3g} mm2",
-                                          with_prefix(*r.max_displacement_m, "m", 3), 100 * *r.max_damage,
+                                          quantity(*r.max_displacement_m, "m", 3), 100 * *r.max_damage,
                                           *r.opening_area_m2 * 1e6));
   if (least_vent_ < 1) {
     console_.item("venting", fmt::format("the opening let the pressure fall to {:.0f} % of the scheduled one",

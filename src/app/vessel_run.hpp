@@ -24,6 +24,8 @@ struct RunOptions {
   bool quiet = false;
 };
 
+enum class Ending { completed, interrupted };
+
 class VesselRun {
  public:
   VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm);
@@ -31,7 +33,7 @@ class VesselRun {
 
   /// Runs to the end, or to the step after an interrupt. Throws RunError (after noting it in run.json) or
   /// InputError (nothing written).
-  void run();
+  Ending run();
 
  private:
   struct Spent {

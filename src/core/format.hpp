@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <string>
 
 namespace rhexis {
@@ -11,6 +12,22 @@ inline std::string text(double value, int digits = 4) {
   char buffer[40];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, digits);
   return std::string(buffer, end.ptr);
+}
+
+/// A quantity in SI with a metric prefix before its unit: "1.5 mm", "238 kPa", "500 ns"; "-" for nan.
+inline std::string quantity(double value, const std::string& unit, int digits = 4) {
+  struct Prefix {
+    double factor;
+    const char* name;
+  };
+  constexpr Prefix prefixes[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}};
+  if (!std::isfinite(value)) return "-";
+  // Half a unit of the last digit is added, so that 0.99999 becomes 1 and not 1000 m.
+  const double rounded = std::abs(value) * (1 + 0.5 * std::pow(10, -digits));
+  for (const Prefix& p : prefixes) {
+    if (rounded >= p.factor) return text(value / p.factor, digits) + " " + p.name + unit;
+  }
+  return text(value, digits) + " " + unit;
 }
 
 }  // namespace rhexis

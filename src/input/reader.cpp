@@ -7,7 +7,6 @@
 
 #include "input/catalogue.hpp"
 #include "input/description.hpp"
-#include "input/units.hpp"
 #include "input/values.hpp"
 #include "input/wording.hpp"
 

@@ -134,6 +134,8 @@ struct Written {
 };
 
 Written split(std::string_view text, std::string_view expected) {
+  // UDUNITS would stop reading there and miss the rest.
+  if (text.find('\0') != std::string_view::npos) throw InputError("holds a NUL character");
   text = trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   double number = 0;

@@ -12,6 +12,7 @@ namespace rhexis::input {
 /// what
 ///         is wrong and gives an example, and leaves out where the text came from.
 /// @throws std::logic_error where `unit` itself is unknown: a declaration is wrong, not the input.
+/// @throws RunError where the database of UDUNITS-2 is not installed.
 double to_si(std::string_view text, std::string_view unit);
 
 /// Whether `unit` stands for a number without a dimension.

@@ -29,17 +29,6 @@ Slab slab_of(const WordBlock& block) {
           .block = {1, 1}};
 }
 
-void write_array(Hdf5File& file, const parallel::Communicator& communicator, const std::string& name,
-                 hid_t file_type, hid_t memory_type, const Slab& slab, const void* values) {
-  ByteRange bytes;
-  together<RunError>(communicator, [&] {
-    file.create_dataset(name, file_type, slab);
-    bytes = file.bytes_of(name);
-  });
-  on_root<RunError>(communicator, [&] { reserve_space(file.path(), {&bytes, 1}); });
-  together<RunError>(communicator, [&] { file.write(name, memory_type, slab, values); });
-}
-
 void read_array(const Hdf5File& file, const parallel::Communicator& communicator, const std::string& name,
                 hid_t memory_type, const Slab& slab, void* values) {
   together<InputError>(communicator, [&] {
@@ -55,15 +44,13 @@ void read_array(const Hdf5File& file, const parallel::Communicator& communicator
 
 CheckpointWriter::CheckpointWriter(std::filesystem::path path, parallel::Communicator communicator)
     : path_(std::move(path)), temporary_(path_.string() + ".part"), communicator_(communicator) {
-  together<RunError>(communicator_, [&] {
-    file_ = std::make_unique<Hdf5File>(temporary_, Hdf5File::Mode::create, communicator_);
+  on_root<RunError>(communicator_, [&] {
+    change_structure(temporary_, Hdf5File::Mode::create, 0,
+                     [](Hdf5File& file) { file.write_text("/", format_attribute, format_text); });
   });
-  write(format_attribute, std::string(format_text));
 }
 
 CheckpointWriter::~CheckpointWriter() {
-  if (!file_) return;
-  file_.reset();
   std::error_code ignored;
   if (communicator_.is_root()) std::filesystem::remove(temporary_, ignored);
 }
@@ -71,33 +58,48 @@ CheckpointWriter::~CheckpointWriter() {
 void CheckpointWriter::write(const std::string& name, const PointLayout& layout,
                              std::span<const double> values) {
   assert(static_cast<std::int64_t>(values.size()) == layout.local_count());
-  write_array(*file_, communicator_, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, slab_of(layout, 1),
-              values.data());
+  write_array(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, slab_of(layout, 1), values.data());
 }
 
 void CheckpointWriter::write(const std::string& name, const WordBlock& block,
                              std::span<const std::uint16_t> values) {
   assert(static_cast<std::int64_t>(values.size()) == block.local_count());
-  write_array(*file_, communicator_, name, H5T_STD_U16LE, H5T_NATIVE_UINT16, slab_of(block), values.data());
+  write_array(name, H5T_STD_U16LE, H5T_NATIVE_UINT16, slab_of(block), values.data());
 }
 
 void CheckpointWriter::write(const std::string& name, std::int64_t value) {
-  together<RunError>(communicator_, [&] { file_->write_attribute("/", name, H5T_NATIVE_INT64, &value); });
+  lay_out([&](Hdf5File& file) { file.write_attribute("/", name, H5T_NATIVE_INT64, &value); });
 }
 
 void CheckpointWriter::write(const std::string& name, double value) {
-  together<RunError>(communicator_, [&] { file_->write_attribute("/", name, H5T_NATIVE_DOUBLE, &value); });
+  lay_out([&](Hdf5File& file) { file.write_attribute("/", name, H5T_NATIVE_DOUBLE, &value); });
 }
 
 void CheckpointWriter::write(const std::string& name, const std::string& text) {
-  together<RunError>(communicator_, [&] { file_->write_text("/", name, text); });
+  lay_out([&](Hdf5File& file) { file.write_text("/", name, text); });
 }
 
 void CheckpointWriter::close() {
-  together<RunError>(communicator_, [&] { file_->close(); });
   together<RunError>(communicator_, [&] { sync_to_disk(temporary_); });
   on_root<RunError>(communicator_, [&] { std::filesystem::rename(temporary_, path_); });
-  file_.reset();
+}
+
+void CheckpointWriter::lay_out(const std::function<void(Hdf5File&)>& change) {
+  on_root<RunError>(communicator_, [&] { change_structure(temporary_, Hdf5File::Mode::modify, 1, change); });
+}
+
+void CheckpointWriter::write_array(const std::string& name, std::int64_t file_type, std::int64_t memory_type,
+                                   const Slab& slab, const void* values) {
+  lay_out([&](Hdf5File& file) {
+    file.create_dataset(name, file_type, slab);
+    const ByteRange bytes = file.bytes_of(name);
+    reserve_space(temporary_, {&bytes, 1});
+  });
+  std::unique_ptr<Hdf5File> file;
+  together<RunError>(communicator_, [&] {
+    file = std::make_unique<Hdf5File>(temporary_, Hdf5File::Mode::modify, communicator_);
+  });
+  together<RunError>(communicator_, [&] { file->write(name, memory_type, slab, values); });
 }
 
 CheckpointReader::CheckpointReader(std::filesystem::path path, parallel::Communicator communicator)

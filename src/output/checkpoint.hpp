@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,6 +18,7 @@
 namespace rhexis::output {
 
 class Hdf5File;
+struct Slab;
 
 /// This rank's part of a table of `rows` x `words` 16-bit words (the bits of the bonds: a row per bond of a
 /// column's family, a word per 16 particles along the axis), row by row. Parts of ranks do not overlap.
@@ -47,9 +49,12 @@ class CheckpointWriter {
   void close();
 
  private:
+  void lay_out(const std::function<void(Hdf5File&)>& change);
+  void write_array(const std::string& name, std::int64_t file_type, std::int64_t memory_type,
+                   const Slab& slab, const void* values);
+
   std::filesystem::path path_, temporary_;
   parallel::Communicator communicator_;
-  std::unique_ptr<Hdf5File> file_;
 };
 
 /// Reads a checkpoint. Every call is collective and throws InputError on all ranks, naming the file and what

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -16,9 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array result_files = {
-    "run.json",  "history.csv",   "particles.xdmf",   "particles.h5",        "network.xdmf",     "network.h5",
-    "movie.mp4", "run.json.part", "history.csv.part", "particles.xdmf.part", "network.xdmf.part"};
+/// Whether runs write files of this name into the folder itself. A restart's series is particles_from_<step>.
+bool is_result(std::string name) {
+  if (name.ends_with(".part")) name.resize(name.size() - 5);
+  constexpr std::array fixed = {"run.json",     "history.csv", "particles.xdmf", "particles.h5",
+                                "network.xdmf", "network.h5",  "movie.mp4"};
+  return std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
+         (name.starts_with("particles_from_") && (name.ends_with(".h5") || name.ends_with(".xdmf")));
+}
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
   throw InputError(fmt::format("cannot write results to {}: {}", path.string(), reason));
@@ -62,20 +69,18 @@ void try_to_write_in(const fs::path& directory) {
   if (!reason.empty()) refuse(directory, reason);
 }
 
-void remove_file(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(fs::symlink_status(path))) return;
-  fs::remove(path, error);
-  if (error) refuse(path, "cannot remove the results of an earlier run: " + error.message());
-}
-
-void remove_results(const fs::path& directory) {
-  for (const char* name : result_files) remove_file(directory / name);
-  std::vector<fs::path> pictures;
-  for (const fs::directory_entry& entry : fs::directory_iterator(directory / "images")) {
-    if (entry.path().extension() == ".png") pictures.push_back(entry.path());
+/// Removes the files in `directory` itself whose names `is_ours` accepts.
+template <class Predicate>
+void remove_files(const fs::path& directory, Predicate is_ours) {
+  std::vector<fs::path> ours;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    if (fs::is_regular_file(entry.symlink_status()) && is_ours(entry.path())) ours.push_back(entry.path());
   }
-  for (const fs::path& picture : pictures) remove_file(picture);
+  for (const fs::path& path : ours) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error) refuse(path, "cannot remove the results of an earlier run: " + error.message());
+  }
 }
 
 }  // namespace
@@ -88,7 +93,10 @@ void prepare_directory(const fs::path& directory, EarlierResults earlier,
       created.make(path);
       try_to_write_in(path);
     }
-    if (earlier == EarlierResults::remove) remove_results(directory);
+    if (earlier == EarlierResults::remove) {
+      remove_files(directory, [](const fs::path& path) { return is_result(path.filename()); });
+      remove_files(directory / "images", [](const fs::path& path) { return path.extension() == ".png"; });
+    }
     created.keep();
   });
 }

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <string>
 
 #include "core/error.hpp"
 
@@ -40,6 +41,22 @@ void reserve_space(const std::filesystem::path& path, std::span<const ByteRange>
     fallocate(file.descriptor, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, range.offset, range.count);
   }
   fail(path, "reserve disk space", error);
+}
+
+SpareSpace::SpareSpace(const std::filesystem::path& beside, std::int64_t bytes) {
+  const std::string name = beside.string() + ".spare";
+  descriptor_ = open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (descriptor_ < 0) fail(beside, "create the file", errno);
+  // Without a name, the space is free again as soon as it is closed, however the program ends.
+  unlink(name.c_str());
+  const int error = posix_fallocate(descriptor_, 0, bytes);
+  if (error == 0) return;
+  ::close(descriptor_);
+  fail(beside, "reserve disk space", error);
+}
+
+SpareSpace::~SpareSpace() {
+  ::close(descriptor_);
 }
 
 void sync_to_disk(const std::filesystem::path& path) {

@@ -20,6 +20,19 @@ struct ByteRange {
 /// and on fewer ranks report it without the reason.
 void reserve_space(const std::filesystem::path& path, std::span<const ByteRange> ranges);
 
+/// Space held on the disk of a file until the end of this object's life, then free for that file to grow
+/// into. Throws RunError if there is not enough. Local to the calling rank.
+class SpareSpace {
+ public:
+  SpareSpace(const std::filesystem::path& beside, std::int64_t bytes);
+  ~SpareSpace();
+  SpareSpace(const SpareSpace&) = delete;
+  SpareSpace& operator=(const SpareSpace&) = delete;
+
+ private:
+  int descriptor_;
+};
+
 /// Waits until all that this process wrote to the file is on disk. Throws RunError if it cannot be. Local to
 /// the calling rank, unlike HDF5's flush, which waits for ever if another rank cannot flush.
 void sync_to_disk(const std::filesystem::path& path);

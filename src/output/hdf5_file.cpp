@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -76,10 +77,12 @@ Hdf5File::Hdf5File(std::filesystem::path path, Mode mode, const parallel::Commun
   collective_ = own(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "prepare", "the transfer");
   require(H5Pset_dxpl_mpio(collective_, H5FD_MPIO_COLLECTIVE) >= 0, "prepare", "the transfer");
   const std::string name = path_.string();
-  file_ =
-      mode == Mode::create
-          ? own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create", "the file")
-          : own(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "open", "the file");
+  if (mode == Mode::create) {
+    file_ = own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create", "the file");
+  } else {
+    const unsigned flags = mode == Mode::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
+    file_ = own(H5Fopen(name.c_str(), flags, access), H5Fclose, "open", "the file");
+  }
 }
 
 void Hdf5File::create_group(const std::string& name) {
@@ -182,12 +185,22 @@ std::string Hdf5File::read_text(const std::string& object, const std::string& na
   return text.c_str();
 }
 
-void Hdf5File::flush() {
-  require(H5Fflush(file_, H5F_SCOPE_LOCAL) >= 0, "flush", "the file");
-}
-
 void Hdf5File::close() {
   require(file_.reset(), "close", "the file");
+}
+
+void change_structure(const std::filesystem::path& path, Hdf5File::Mode mode, std::size_t datasets,
+                      const std::function<void(Hdf5File&)>& change) {
+  std::unique_ptr<Hdf5File> file;
+  {
+    // HDF5 writes metadata when it closes a file; if it cannot, it crashes when the program ends. So room for
+    // them is had first, and freed just before, also when `change` fails. More than a data set and all
+    // attributes take.
+    const SpareSpace room(path, static_cast<std::int64_t>(128 + datasets) * 1024);
+    file = std::make_unique<Hdf5File>(path, mode, parallel::Communicator(MPI_COMM_SELF));
+    change(*file);
+  }
+  file->close();
 }
 
 }  // namespace rhexis::output

@@ -5,7 +5,9 @@
 #include <hdf5.h>
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,7 +53,7 @@ Slab slab_of(const PointLayout& layout, int components);
 /// HDF5 itself prints nothing.
 class Hdf5File {
  public:
-  enum class Mode { create, read };
+  enum class Mode { create, modify, read };
   Hdf5File(std::filesystem::path path, Mode mode, const parallel::Communicator& communicator);
 
   const std::filesystem::path& path() const { return path_; }
@@ -76,8 +78,7 @@ class Hdf5File {
   void read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const;
   std::string read_text(const std::string& object, const std::string& name) const;
 
-  /// Hands everything written so far to the operating system and waits until it is on disk.
-  void flush();
+  /// Hands everything to the operating system. The destructor does too, but cannot tell of a failure.
   void close();
 
  private:
@@ -89,5 +90,12 @@ class Hdf5File {
   std::filesystem::path path_;
   Hdf5Handle file_, collective_;
 };
+
+/// Lets `change` add groups, at most `datasets` data sets and attributes to the file, which is created, or
+/// opened to be modified, by the calling rank alone. Throws std::runtime_error, before anything is written if
+/// the disk is full. All ranks together must not do this: in Open MPI and HDF5 1.10 they wait for each other
+/// for ever if one of them fails to write its share of the metadata.
+void change_structure(const std::filesystem::path& path, Hdf5File::Mode mode, std::size_t datasets,
+                      const std::function<void(Hdf5File&)>& change);
 
 }  // namespace rhexis::output

@@ -48,33 +48,39 @@ PointSeries::PointSeries(const PointSeriesPlan& plan, const PointLayout& layout,
     fields_.push_back({std::string(field.name), std::string(field.unit), field.components});
   }
   for (const long step : plan.steps) planned_places_[step] = fmt::format("{:06}", step);
-  together<RunError>(communicator_, [&] {
-    file_ = std::make_unique<Hdf5File>(plan.directory / hdf5_name_, Hdf5File::Mode::create, communicator_);
+  const std::filesystem::path path = plan.directory / hdf5_name_;
+  // By the root alone, because ranks that share the writing of metadata wait for each other for ever if one
+  // fails.
+  on_root<RunError>(communicator_, [&] {
+    const std::size_t datasets = fields_.size() * (planned_places_.size() + 1) + 2;
+    change_structure(path, Hdf5File::Mode::create, datasets, [&](Hdf5File& file) { lay_out(file, plan); });
+    sync_to_disk(path);
   });
-  together<RunError>(communicator_, [&] { lay_out(plan); });
-  together<RunError>(communicator_, [&] { file_->flush(); });
+  together<RunError>(communicator_, [&] {
+    file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::modify, communicator_);
+  });
   reserve({"/connectivity", "/reference_position"});
   together<RunError>(communicator_, [&] { write_connectivity(); });
 }
 
 PointSeries::~PointSeries() = default;
 
-void PointSeries::lay_out(const PointSeriesPlan& plan) {
+void PointSeries::lay_out(Hdf5File& file, const PointSeriesPlan& plan) const {
   const hid_t type = precision_ == Precision::single_precision ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-  file_->write_text("/", "title", plan.title);
-  file_->write_text("/", "version", plan.version);
+  file.write_text("/", "title", plan.title);
+  file.write_text("/", "version", plan.version);
   for (const StoredField& field : fields_) {
     const Slab slab = slab_of(layout_, field.components);
-    file_->create_group("/" + field.name);
-    file_->write_text("/" + field.name, "unit", field.unit);
+    file.create_group("/" + field.name);
+    file.write_text("/" + field.name, "unit", field.unit);
     for (const auto& [step, place] : planned_places_) {
-      file_->create_dataset(dataset_name(field.name, place), type, slab);
+      file.create_dataset(dataset_name(field.name, place), type, slab);
     }
-    file_->create_dataset(dataset_name(field.name, unplanned_place), type, slab);
+    file.create_dataset(dataset_name(field.name, unplanned_place), type, slab);
   }
-  file_->create_dataset("/reference_position", type, slab_of(layout_, 3));
-  file_->write_text("/reference_position", "unit", "m");
-  file_->create_dataset("/connectivity", H5T_STD_I64LE, slab_of(layout_, 1));
+  file.create_dataset("/reference_position", type, slab_of(layout_, 3));
+  file.write_text("/reference_position", "unit", "m");
+  file.create_dataset("/connectivity", H5T_STD_I64LE, slab_of(layout_, 1));
 }
 
 void PointSeries::write_connectivity() {

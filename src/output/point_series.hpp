@@ -65,7 +65,7 @@ class PointSeries {
     std::string place, grid;  ///< name of its data sets; its XDMF text
   };
 
-  void lay_out(const PointSeriesPlan& plan);
+  void lay_out(Hdf5File& file, const PointSeriesPlan& plan) const;
   void write_connectivity();
   void write_values(const std::string& dataset, const FieldView& view, int components);
   void reserve(const std::vector<std::string>& datasets);

@@ -112,17 +112,17 @@ void resolve_spacing(Parameters& p) {
   const double ratio = *p.horizon / *p.spacing;
   if (ratio < 2) {
     throw InputError("the horizon is " + text(ratio) + " spacings; at least 2 are needed (3 to 4 are usual), here " +
-                         text(2 * *p.spacing) + " m",
+                         quantity(2 * *p.spacing, "m"),
                      "discretisation.horizon");
   }
   if (ratio > 8) {
     throw InputError("the horizon is " + text(ratio) + " spacings; at most 8 are allowed (3 to 4 are usual), here " +
-                         text(8 * *p.spacing) + " m",
+                         quantity(8 * *p.spacing, "m"),
                      "discretisation.horizon");
   }
   const double wall = p.outer_radius - p.inner_radius;
   if (wall < *p.spacing) {
-    throw InputError("the wall (" + text(wall) + " m) is thinner than one spacing; take at most a third of it",
+    throw InputError("the wall (" + quantity(wall, "m") + ") is thinner than one spacing; take at most a third of it",
                      "discretisation.spacing");
   }
   const double volume = std::numbers::pi *
@@ -157,11 +157,11 @@ void resolve_ends(Parameters& p) {
   const EndCondition ends = end_condition(p);
   if (ends == EndCondition::axial_periodic) {
     if (p.length < 2 * *p.horizon + *p.spacing) {
-      throw InputError("a periodic piece must be longer than two horizons, here " + text(2 * *p.horizon) + " m",
+      throw InputError("a periodic piece must be longer than two horizons, here " + quantity(2 * *p.horizon, "m"),
                        "vessel.length");
     }
   } else if (ends != EndCondition::free && 2 * *p.end_length >= p.length) {
-    throw InputError("the held ends (" + text(*p.end_length) + " m each) leave nothing of the vessel free",
+    throw InputError("the held ends (" + quantity(*p.end_length, "m") + " each) leave nothing of the vessel free",
                      "boundary.end_length");
   }
 }
@@ -170,8 +170,7 @@ void resolve_ends(Parameters& p) {
 
 std::vector<std::string> resolve(Parameters& p) {
   if (!(p.outer_radius > p.inner_radius)) {
-    throw InputError("the outer radius must be above the inner one, vessel.inner_radius = " + text(p.inner_radius) +
-                         " m",
+    throw InputError("the outer radius must be above the inner one, vessel.inner_radius = " + quantity(p.inner_radius, "m"),
                      "vessel.outer_radius");
   }
   if (p.lattice_shift.size() != 2) {

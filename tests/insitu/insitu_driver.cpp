@@ -64,7 +64,7 @@ int main(int argc, char** argv) {
     run({.scripts = {argv + 4, argv + argc}, .image_directory = argv[1], .renderer = renderers.at(argv[2])},
         std::stoi(argv[3]), world);
   } catch (const rhexis::insitu::NotAvailable& error) {
-    if (world.is_root()) std::printf("not available: %s\n", error.what());
+    if (world.is_root()) std::printf("%s\n", error.what());
     return 4;
   } catch (const rhexis::RunError& error) {
     std::printf("error: %s\n", error.what());  // every rank: the test counts them

@@ -69,7 +69,9 @@ def write(folder, frames=3, length_m=10e-3):
                 f'<DataItem Dimensions="{len(rest)}" NumberType="Int" Precision="8" Format="HDF">'
                 f"particles.h5:/connectivity</DataItem></Topology>"
                 f'<Geometry GeometryType="XYZ">{data_item("position", step, values["position"])}</Geometry>'
-                f"{attributes}</Grid>"
+                f"{attributes}"
+                f'<Attribute Name="pressure" AttributeType="Scalar" Center="Grid"><DataItem Dimensions="1" '
+                f'NumberType="Float" Precision="8" Format="XML">{238e3 * min(1, 4 * progress)}</DataItem></Attribute></Grid>'
             )
             largest = float(numpy.linalg.norm(values["displacement"], axis=1).max())
             damage = float(values["damage"].max())

@@ -154,7 +154,7 @@ void CatalystPipeline::process(PointSource& source) {
   for (CatalystScript* script : scripts) {
     if (!agreement_.failure().empty()) break;
     script->run(grid, source.step(), source.time_s());
-    agreement_.agree(guard_->take_noted());
+    agreement_.agree(guard_->take_noted(script->path()));
   }
   grid_->release();
   throw_if_failed();

@@ -15,15 +15,15 @@ from paraview.catalyst import importers, v2_internals
 
 image_directory = ""  # set by C++
 scripts = {}  # module name -> path
-noted = ""  # of this rank: the first exception that ParaView swallowed
+noted = None  # of this rank: the first exception that ParaView swallowed, with its trace
 
 
 class ScriptFailed(Exception):
     """All ranks know already: ParaView should stop here and print nothing."""
 
 
-def describe(error, trace):
-    """One line: script, line number and what Python says of the exception."""
+def describe(error, trace, path=""):
+    """One line: script, line number and what Python says of the exception; `path` if the trace names no script."""
     reason = traceback.format_exception_only(type(error), error)[-1].strip()
     if isinstance(error, SyntaxError):
         return f"Catalyst script {error.filename}, line {error.lineno}: {reason}"
@@ -31,7 +31,7 @@ def describe(error, trace):
     folders = {os.path.dirname(path) for path in scripts.values()}
     own = [frame for frame in frames if os.path.dirname(frame.filename) in folders]
     if not own:
-        return f"Catalyst script: {reason}"
+        return f"Catalyst script {path}: {reason}"
     # A helper's line says what is wrong, the script's own line says whose fault it is: name the script's where it has one.
     named = [frame for frame in own if frame.filename in scripts.values()] or own
     return f"Catalyst script {named[-1].filename}, line {named[-1].lineno}: {reason}"
@@ -41,12 +41,13 @@ def note_exception(kind, error, trace):
     """sys.excepthook: for exceptions that ParaView would only print."""
     global noted
     if kind is not ScriptFailed and not noted:
-        noted = describe(error, trace)
+        noted = (error, trace)
 
 
-def take_noted():
+def take_noted(path):
+    """What happened while the script `path` ran, as text, empty if nothing."""
     global noted
-    text, noted = noted, ""
+    text, noted = describe(*noted, path) if noted else "", None
     return text
 
 
@@ -86,6 +87,11 @@ def import_script(name):
     return module
 
 
+def request_data_description(module, description):
+    """Asked at every step, so ranks meet only for scripts that have a say in it."""
+    return hasattr(module, "RequestDataDescription") and do_request_data_description(module, description)
+
+
 def inspect(path):
     """Reads a script without running it: the list `fields` that it declares, or None where it has none."""
     source = os.path.join(path, "__init__.py") if os.path.isdir(path) else path
@@ -95,7 +101,7 @@ def inspect(path):
     except OSError as error:
         raise RuntimeError(f"Catalyst script {path}: {error.strerror}") from None
     except (SyntaxError, ValueError) as error:
-        raise RuntimeError(describe(error, None)) from None
+        raise RuntimeError(describe(error, None, path)) from None
     for node in tree.body:
         if isinstance(node, ast.Assign) and any(getattr(target, "id", "") == "fields" for target in node.targets):
             try:
@@ -120,6 +126,8 @@ def forget_scripts():
 import_and_validate = v2_internals.import_and_validate
 v2_internals.register_module = register_script
 v2_internals.import_and_validate = guarded(import_script)
-for step in ("do_catalyst_initialize", "do_request_data_description", "do_catalyst_execute", "do_catalyst_finalize"):
+do_request_data_description = guarded(v2_internals.do_request_data_description)
+v2_internals.do_request_data_description = request_data_description
+for step in ("do_catalyst_initialize", "do_catalyst_execute", "do_catalyst_finalize"):
     setattr(v2_internals, step, guarded(getattr(v2_internals, step)))
 sys.excepthook = note_exception

@@ -71,9 +71,9 @@ std::optional<std::vector<std::string>> ScriptGuard::declared_fields(const std::
   return fields;
 }
 
-std::string ScriptGuard::take_noted() const {
+std::string ScriptGuard::take_noted(const std::string& script) const {
   vtkPythonScopeGilEnsurer gil;
-  const vtkSmartPyObject text = call("take_noted");
+  const vtkSmartPyObject text = call("take_noted", script.c_str());
   return PyUnicode_AsUTF8(text);
 }
 

@@ -18,8 +18,9 @@ class ScriptGuard {
   /// a script that cannot be read or parsed; local to the rank.
   std::optional<std::vector<std::string>> declared_fields(const std::string& script) const;
 
-  /// The first exception on this rank that ParaView swallowed since the last call, empty if none.
-  std::string take_noted() const;
+  /// The first exception on this rank that ParaView swallowed since the last call, while `script` ran; empty
+  /// if none.
+  std::string take_noted(const std::string& script) const;
 
   /// Destroys what scripts hold; call before ParaView ends.
   void forget_scripts() const;

@@ -24,11 +24,13 @@ class HeadlessFactory : public vtkObjectFactory {
   }
   const char* GetVTKSourceVersion() override { return VTK_SOURCE_VERSION; }
   const char* GetDescription() override { return "Rhexis: windows without a display"; }
-  vtkTypeMacro(HeadlessFactory, vtkObjectFactory)
 
-      private : HeadlessFactory() {
+ private:
+  HeadlessFactory() {
     RegisterOverride("vtkRenderWindow", "HeadlessWindow", "no display", 1, &new_headless_window);
   }
+
+  vtkTypeMacro(HeadlessFactory, vtkObjectFactory)
 };
 
 std::string renderer_name(GlContext& context) {

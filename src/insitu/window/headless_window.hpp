@@ -23,9 +23,9 @@ class HeadlessWindow : public vtkOpenGLRenderWindow {
   bool IsCurrent() override;
   void* GetGenericContext() override;
   int* GetScreenSize() override;
-  vtkTypeMacro(HeadlessWindow, vtkOpenGLRenderWindow)
 
-      protected : HeadlessWindow();
+ protected:
+  HeadlessWindow();
   ~HeadlessWindow() override;
   void CreateAWindow() override;
   void DestroyWindow() override;
@@ -35,6 +35,8 @@ class HeadlessWindow : public vtkOpenGLRenderWindow {
   void operator=(const HeadlessWindow&) = delete;
 
   std::unique_ptr<GlContext> context_;
+
+  vtkTypeMacro(HeadlessWindow, vtkOpenGLRenderWindow)
 };
 
 /// From now on VTK makes windows of this kind. Returns what OpenGL says of its renderer, e.g. "llvmpipe

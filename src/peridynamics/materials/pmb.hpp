@@ -29,7 +29,7 @@ struct Pmb {
   }
 
   /// g(t), lane by lane. In single precision the root is approximate and then corrected to third order by its
-  /// own residual, in a form that keeps the relative accuracy of small t: g is within 2e-7 + 1e-11 / t.
+  /// own residual, in a form that keeps the accuracy of small t: g is within 1e-6 |g| + 5e-11.
   template <class D, class V>
   static HWY_INLINE V force_factor(D d, V t) {
     namespace hn = hwy::HWY_NAMESPACE;

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "output/checkpoint.hpp"
+#include "small_disk.hpp"
 #include "synthetic_source.hpp"
 #include "temporary_directory.hpp"
 
@@ -127,11 +128,28 @@ TEST(Checkpoint, AnUnfinishedOneLeavesTheEarlierOneAndNothingElse) {
   EXPECT_FALSE(std::filesystem::exists(directory / "state.h5.part"));
 }
 
+TEST(Checkpoint, AFullDiskIsAnErrorOnAllRanksAndLeavesNothing) {
+  const TemporaryDirectory directory;
+  const test::SmallDisk disk(directory.path(), 400 * 1024);
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
+  const PointLayout layout = test::divided(200, 100, world, 1);
+  const std::vector<double> values(static_cast<std::size_t>(layout.local_count()));
+  const std::string message = test::message_of<RunError>([&] {
+    CheckpointWriter writer(directory / "state.h5", world);
+    for (const char* name : {"x", "y", "z"}) writer.write(name, layout, values);
+  });
+  EXPECT_EQ(message,
+            (directory / "state.h5.part").string() + ": cannot reserve disk space: No space left on device");
+  world.barrier();
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
 TEST(Checkpoint, WritingWhereThereIsNoFolderIsARunError) {
   const TemporaryDirectory directory;
   const std::string message =
       test::message_of<RunError>([&] { CheckpointWriter(directory / "no/state.h5", world); });
-  EXPECT_NE(message.find("no/state.h5.part: cannot create the file"), std::string::npos) << message;
+  EXPECT_NE(message.find("no/state.h5.part: cannot create the file: No such file"), std::string::npos)
+      << message;
 }
 
 TEST(Checkpoint, AFileThatIsNoCheckpointIsAnInputError) {

@@ -2,12 +2,12 @@
 // values of the synthetic source fit single precision.
 #include <gtest/gtest.h>
 #include <hdf5.h>
-#include <sys/mount.h>
 #include <sys/stat.h>
 
 #include "core/error.hpp"
 #include "output/disk_space.hpp"
 #include "output/point_series.hpp"
+#include "small_disk.hpp"
 #include "synthetic_source.hpp"
 #include "temporary_directory.hpp"
 
@@ -183,31 +183,10 @@ TEST(PointSeries, AnEarlyEndHasAPlaceOfItsOwn) {
   EXPECT_EQ(listed.find("<Time Value=\"0.061\"/>"), std::string::npos);
 }
 
-/// A file system of its own with little space.
-class SmallDisk {
- public:
-  SmallDisk(const std::filesystem::path& path, std::int64_t bytes) : path_(path) {
-    if (world.is_root())
-      mounted_ = mount("none", path.c_str(), "tmpfs", 0, ("size=" + std::to_string(bytes)).c_str()) == 0;
-    mounted_ = world.all_reduce(std::int64_t{mounted_}, parallel::Reduce::max) == 1;
-  }
-  ~SmallDisk() {
-    world.barrier();
-    if (mounted_ && world.is_root()) umount2(path_.c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-  bool mounted() const { return mounted_; }
-
- private:
-  std::filesystem::path path_;
-  bool mounted_ = false;
-};
-
 TEST(PointSeries, AFullDiskIsAnErrorOnAllRanksAndLeavesEarlierSteps) {
   const TemporaryDirectory directory;
   const std::int64_t bytes_of_step = 50 * 200 * 7 * 4;
-  const SmallDisk disk(directory.path(), 4 * bytes_of_step);
+  const test::SmallDisk disk(directory.path(), 4 * bytes_of_step + 160000);
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
   SyntheticSource source(test::divided(50, 200, world, 1), 0);
   PointSeries series(plan_in(directory.path(), {0, 50, 100, 150}), source.layout(), world);
@@ -230,8 +209,21 @@ TEST(PointSeries, AFullDiskIsAnErrorOnAllRanksAndLeavesEarlierSteps) {
   EXPECT_EQ(test::text_of(directory / "particles.xdmf").find("000150"), std::string::npos);
   // The space of the step that failed is free again for what is left to say.
   std::ofstream last_words(directory / "run.json");
-  last_words << std::string(1 << 16, ' ') << std::flush;
+  last_words << std::string(100000, ' ') << std::flush;
   EXPECT_TRUE(last_words.good());
+}
+
+TEST(PointSeries, ADiskTooSmallForTheLayoutIsAnErrorOnAllRanks) {
+  const TemporaryDirectory directory;
+  for (const std::int64_t kibibytes : {8, 60, 150, 200}) {
+    const test::SmallDisk disk(directory.path(), kibibytes * 1024);
+    if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
+    const SyntheticSource source(test::divided(50, 200, world, 1), 0);
+    const std::string message = test::message_of<RunError>(
+        [&] { const PointSeries series(plan_in(directory.path(), {0}), source.layout(), world); });
+    EXPECT_EQ(message,
+              (directory / "particles.h5").string() + ": cannot reserve disk space: No space left on device");
+  }
 }
 
 TEST(PointSeries, AFolderThatIsNotThereIsAnErrorOnAllRanks) {
@@ -239,7 +231,8 @@ TEST(PointSeries, AFolderThatIsNotThereIsAnErrorOnAllRanks) {
   const SyntheticSource source(test::divided(9, 17, world, 1), 0);
   const std::string message = test::message_of<RunError>(
       [&] { const PointSeries series(plan_in(directory / "missing", {0}), source.layout(), world); });
-  EXPECT_NE(message.find("missing/particles.h5: cannot create the file"), std::string::npos) << message;
+  EXPECT_NE(message.find("missing/particles.h5: cannot create the file: No such file"), std::string::npos)
+      << message;
 }
 
 TEST(DiskSpace, WhatCannotBeReservedAsAWholeIsGivenBack) {

@@ -1,0 +1,269 @@
+"""The program as its users meet it: the command line, wrong inputs, interrupts, restarts.
+
+Run by ctest as: test_cli.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
+"""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+RHEXIS = sys.argv[1]
+MPIRUN = sys.argv[2:]
+
+# A vessel small enough to run in a second: 548 columns x 20 rows, no pictures.
+GOOD = """\
+[vessel]
+inner_radius = "1.5 mm"
+outer_radius = "2 mm"
+length = "2 mm"
+
+[discretisation]
+spacing = "100 um"
+
+[load]
+pressure = "238 kPa"
+ramp_time = "0.1 ms"
+venting = "none"
+
+[time]
+step = "500 ns"
+end = "50 us"
+
+[output]
+every_steps = 20
+"""
+
+
+def replaced(line_start, new):
+    return "\n".join(new if line.startswith(line_start) else line for line in GOOD.splitlines()) + "\n"
+
+
+# name, input text, what the message must contain besides the file's name
+WRONG_INPUTS = [
+    ("unit missing", replaced("length", 'length = "2"'), [":4:", "vessel.length", "unit"]),
+    ("number for a quantity", replaced("length", "length = 2.0"), [":4:", "vessel.length", "unit"]),
+    ("wrong dimension", replaced("length", 'length = "2 kPa"'), [":4:", "vessel.length", "length"]),
+    ("unknown unit", replaced("length", 'length = "2 furlongz"'), [":4:", "furlongz"]),
+    ("no number", replaced("length", 'length = "long"'), [":4:", "vessel.length"]),
+    ("nan", replaced("length", 'length = "nan mm"'), [":4:", "vessel.length"]),
+    ("infinite", replaced("length", 'length = "inf mm"'), [":4:", "vessel.length"]),
+    ("zero", replaced("length", 'length = "0 mm"'), [":4:", "greater than 0"]),
+    ("negative", replaced("inner_radius", 'inner_radius = "-1.5 mm"'), [":2:", "greater than 0"]),
+    ("unknown key", replaced("length", 'lenght = "2 mm"'), [":4:", "lenght", "length"]),
+    ("unknown section", GOOD.replace("[load]", "[laod]"), ["laod", "load"]),
+    ("key in the wrong section", replaced("ramp_time", 'young_modulus = "3 MPa"'), ["young_modulus", "material"]),
+    ("missing key", replaced("length", ""), ["vessel.length", "missing"]),
+    ("empty file", "", ["vessel.inner_radius"]),
+    ("duplicate key", replaced("length", 'length = "2 mm"\nlength = "3 mm"'), [":5:"]),
+    ("not TOML", replaced("length", "length = = 2"), [":4:"]),
+    ("open string", replaced("length", 'length = "2 mm'), [":4:"]),
+    ("open section", GOOD.replace("[vessel]", "[vessel"), [":1:"]),
+    ("nested table", GOOD + "[load.more]\nx = 1\n", ["load.more"]),
+    ("date", replaced("length", "length = 2020-01-01"), [":4:"]),
+    ("boolean for a quantity", replaced("length", "length = true"), [":4:", "vessel.length"]),
+    ("list for a quantity", replaced("length", 'length = ["2 mm"]'), [":4:", "vessel.length"]),
+    ("binary", "\x00\x01\x02\n", []),
+    ("radii swapped", replaced("outer_radius", 'outer_radius = "1 mm"'), [":3:", "outer_radius", "inner_radius"]),
+    ("radii equal", replaced("outer_radius", 'outer_radius = "1.5 mm"'), [":3:", "above"]),
+    ("horizon too small", replaced("spacing", 'spacing = "100 um"\nhorizon = "150 um"'), ["horizon", "2"]),
+    ("horizon too large", replaced("spacing", 'spacing = "100 um"\nhorizon = "1 mm"'), ["horizon", "8"]),
+    ("spacing and particles", replaced("spacing", 'spacing = "100 um"\nparticles = 1000'), ["particles", "both"]),
+    ("neither spacing nor particles", replaced("spacing", ""), ["spacing"]),
+    ("spacing wider than the wall", replaced("spacing", 'spacing = "0.6 mm"'), ["spacing", "wall"]),
+    ("too many particles", replaced("spacing", 'spacing = "10 nm"'), ["spacing", "particles"]),
+    ("half a particle", replaced("spacing", "particles = 1000.5"), ["particles"]),
+    ("choice", replaced("spacing", 'spacing = "100 um"\ncross_section = "polr"'), ["polr", "polar", "lattice"]),
+    ("lattice shift of one number", replaced("spacing", 'spacing = "100 um"\nlattice_shift = [0.5]'), ["lattice_shift", "two"]),
+    ("lattice shift beyond one", replaced("spacing", 'spacing = "100 um"\nlattice_shift = [0.5, 3]'), ["lattice_shift"]),
+    ("negative pressure", replaced("pressure", 'pressure = "-1 kPa"'), ["load.pressure"]),
+    ("table without points", replaced("ramp_time", 'schedule = "table"'), ["load.table", "two"]),
+    ("table out of order", replaced("ramp_time", 'schedule = "table"\ntable = [["1 ms", "0 kPa"], ["0 ms", "1 kPa"]]'), ["load.table", "increase"]),
+    ("table point without unit", replaced("ramp_time", 'schedule = "table"\ntable = [["1", "0 kPa"], ["2 ms", "1 kPa"]]'), ["load.table", "unit"]),
+    ("table that is not used", replaced("ramp_time", 'table = [["0 ms", "0 kPa"], ["2 ms", "1 kPa"]]'), ["load.table"]),
+    ("layer thinner than a spacing", replaced("ramp_time", 'layer_thickness = "1 um"'), ["load.layer_thickness"]),
+    ("time step above the stable one", replaced("step", 'step = "5 us"'), [":15:", "time.step", "stable", "auto"]),
+    ("time step of zero", replaced("step", 'step = "0 us"'), ["time.step"]),
+    ("step fraction above one", replaced("step", "step_fraction = 1.5"), ["time.step_fraction"]),
+    ("no end", replaced("end", 'end = "0 s"'), ["time.end"]),
+    ("both output intervals", replaced("every_steps", 'every_steps = 20\nevery_time = "1 us"'), ["output.every_time"]),
+    ("output every zero steps", replaced("every_steps", "every_steps = 0"), ["output.every_steps"]),
+    ("unknown field", replaced("every_steps", 'fields = ["damge"]'), ["damge", "damage"]),
+    ("ends that hold all", GOOD + '[boundary]\nend_length = "1 mm"\n', ["end_length"]),
+    ("periodic piece too short", GOOD.replace('length = "2 mm"', 'length = "0.5 mm"') + '[boundary]\nends = "axial_periodic"\n', ["vessel.length", "horizon"]),
+    ("critical stretch of zero", GOOD + "[material]\ncritical_stretch = 0\n", ["critical_stretch"]),
+    ("missing script", GOOD + '[insitu]\nscripts = ["nowhere.py"]\n', ["insitu.scripts", "nowhere.py"]),
+]
+
+
+class Cli(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="rhexis_cli_")
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def write(self, text, name="vessel.toml"):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return name
+
+    def rhexis(self, *arguments, ranks=None):
+        launcher = [*MPIRUN, "-n", str(ranks)] if ranks else []
+        return subprocess.run([*launcher, RHEXIS, *arguments], cwd=self.folder.name, capture_output=True, text=True,
+                              timeout=300, stdin=subprocess.DEVNULL, check=False)
+
+    def record(self, folder):
+        with open(self.path(folder + "/run.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def history(self, folder):
+        with open(self.path(folder + "/history.csv"), encoding="utf-8") as file:
+            return list(csv.DictReader(file))
+
+    # -- what it prints ------------------------------------------------------------------------------------------
+
+    def test_version_help_and_keys(self):
+        self.assertIn("Rhexis", self.rhexis("--version").stdout)
+        self.assertIn("run", self.rhexis("--help").stdout)
+        keys = self.rhexis("keys").stdout
+        for key in ("vessel.inner_radius", "load.venting", "insitu.scripts", "output.every_steps"):
+            self.assertIn(key.split(".")[1], keys)
+        self.assertNotIn("venting", self.rhexis("keys", "time").stdout)
+        wrong = self.rhexis("keys", "laod")
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn("load", wrong.stderr)
+
+    def test_wrong_calls(self):
+        for arguments in ([], ["fly"], ["run"], ["run", "a.toml", "--fast"]):
+            self.assertEqual(self.rhexis(*arguments).returncode, 2, arguments)
+
+    def test_check_tells_derived_numbers_and_writes_nothing(self):
+        self.write(GOOD)
+        result = self.rhexis("check", "vessel.toml")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for text in ("10,960", "100 um", "350 um", "stable"):
+            self.assertIn(text, result.stdout)
+        self.assertEqual(os.listdir(self.folder.name), ["vessel.toml"])
+
+    # -- wrong input ---------------------------------------------------------------------------------------------
+
+    def assert_refused(self, result, fragments, name):
+        self.assertEqual(result.returncode, 2, f"{name}: {result.stderr}")
+        message = result.stderr
+        self.assertEqual(message.count("rhexis: "), 1, f"{name}: not one message: {message}")
+        for fragment in fragments:
+            self.assertIn(fragment, message, name)
+        self.assertEqual(sorted(os.listdir(self.folder.name)), ["vessel.toml"], f"{name}: something was written")
+
+    def test_wrong_inputs(self):
+        self.assertGreaterEqual(len(WRONG_INPUTS), 40)
+        for name, text, fragments in WRONG_INPUTS:
+            with self.subTest(name):
+                self.write(text)
+                self.assert_refused(self.rhexis("run", "vessel.toml"), ["vessel.toml", *fragments], name)
+
+    def test_wrong_input_is_said_once_by_several_ranks(self):
+        for name, text, fragments in WRONG_INPUTS[:3] + WRONG_INPUTS[-12:-10]:
+            self.write(text)
+            self.assert_refused(self.rhexis("run", "vessel.toml", ranks=3), fragments, name)
+
+    def test_wrong_overrides(self):
+        self.write(GOOD)
+        for override, fragment in (("time.step", "="), ("time.stepp=1 us", "time.step"), ("time.step=fast", "time.step"),
+                                   ("time.step=3 us", "stable"), ("vessel.length=2", "unit")):
+            self.assert_refused(self.rhexis("run", "vessel.toml", "--set", override), ["--set", fragment], override)
+
+    def test_unreadable_files(self):
+        self.write(GOOD)
+        for file in ("absent.toml", "."):
+            result = self.rhexis("run", file)
+            self.assert_refused(result, [file], file)
+
+    def test_folder_that_cannot_be_written(self):
+        self.write(GOOD)
+        for folder in ("vessel.toml", "vessel.toml/below", "/proc/nowhere"):
+            for ranks in (None, 2):
+                self.assert_refused(self.rhexis("run", "vessel.toml", "-o", folder, ranks=ranks), ["cannot write"], folder)
+
+    # -- running -------------------------------------------------------------------------------------------------
+
+    def test_run_leaves_a_record(self):
+        self.write(GOOD)
+        result = self.rhexis("run", "vessel.toml")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        record = self.record("results/vessel")
+        self.assertEqual(record["status"], "completed")
+        self.assertEqual(record["results"]["particles"], 10960)
+        self.assertEqual(record["results"]["steps"], 100)
+        self.assertEqual(record["performance"]["ranks"], 1)
+        self.assertGreater(record["performance"]["bond_evaluations"], 1e6)
+        self.assertLess(abs(record["results"]["energy_drift"]), 1e-3)
+        self.assertIsNone(record["results"]["network"]["vessels"])
+        rows = self.history("results/vessel")
+        self.assertEqual([row["step"] for row in rows], ["0", "20", "40", "60", "80", "100"])
+        self.assertAlmostEqual(float(rows[-1]["pressure_Pa"]), 119e3, delta=1)
+
+    def test_history_is_the_same_for_any_ranks(self):
+        self.write(GOOD)
+        for ranks in (1, 2, 3):
+            result = self.rhexis("run", "vessel.toml", "-o", f"r{ranks}", "--quiet", ranks=ranks)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(result.stdout, "")
+        self.assertEqual(self.history("r1"), self.history("r2"))
+        self.assertEqual(self.history("r1"), self.history("r3"))
+
+    def test_output_by_time(self):
+        self.write(replaced("every_steps", 'every_time = "12.5 us"'))
+        self.rhexis("run", "vessel.toml", "-o", "out")
+        for row, time_s in zip(self.history("out"), [0, 12.5e-6, 25e-6, 37.5e-6, 50e-6], strict=True):
+            self.assertAlmostEqual(float(row["time_s"]), time_s, delta=1e-12)
+
+    def test_unstable_run_fails_with_status_3_and_keeps_its_data(self):
+        # Stable for small strain, but a wall hit by 10 GPa at once does not stay there.
+        self.write(replaced("pressure", 'pressure = "10 GPa"\nschedule = "step"').replace('ramp_time = "0.1 ms"\n', ""))
+        result = self.rhexis("run", "vessel.toml", "-o", "out", ranks=2)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertIn("unstable", result.stderr)
+        self.assertTrue(self.record("out")["status"].startswith("failed: the run became unstable"))
+        self.assertEqual(self.history("out")[0]["step"], "0")
+
+    def test_interrupt_saves_and_restart_goes_on_bit_by_bit(self):
+        import h5py
+        self.write(replaced("end", 'end = "1 ms"'))
+        self.assertEqual(self.rhexis("run", "vessel.toml", "-o", "whole", "--set", "time.end=200 us",
+                                     "--set", "output.checkpoint_every=150").returncode, 0)
+        go_on = self.rhexis("run", "vessel.toml", "-o", "rest", "--set", "time.end=200 us", "--restart",
+                            "whole/checkpoints/step_000150.h5", ranks=2)
+        self.assertEqual(go_on.returncode, 0, go_on.stderr)
+        self.assertEqual(self.history("whole")[-1], self.history("rest")[-1])
+        with h5py.File(self.path("whole/particles.h5")) as a, h5py.File(
+                self.path("rest/particles_from_000150.h5")) as b:
+            self.assertTrue((a["position/000400"][:] == b["position/000400"][:]).all())
+
+        process = subprocess.Popen([RHEXIS, "run", "vessel.toml", "-o", "cut"], cwd=self.folder.name,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for _ in range(600):
+            if os.path.exists(self.path("cut/history.csv")) and len(self.history("cut")) > 2:
+                break
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        output, _ = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("--restart", output)
+        record = self.record("cut")
+        self.assertEqual(record["status"], "failed: interrupted")
+        last = int(self.history("cut")[-1]["step"])
+        self.assertEqual(last, record["results"]["steps"])
+        self.assertTrue(os.path.exists(self.path(f"cut/checkpoints/step_{last:06d}.h5")))
+        self.assertEqual(self.rhexis("run", "vessel.toml", "-o", "x", "--restart", "absent.h5").returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)

@@ -1,0 +1,66 @@
+"""Rules that machines keep: who may include whom, where MPI and OpenMP live, no dead links in the docs.
+
+Run by ctest as: test_rules.py SOURCE_DIR
+"""
+
+import pathlib
+import re
+import sys
+import unittest
+
+ROOT = pathlib.Path(sys.argv[1])
+SRC = ROOT / "src"
+
+# Folder -> folders that it may include, besides itself and core.
+MAY_INCLUDE = {
+    "core": set(),
+    "parallel": set(),
+    "input": set(),
+    "peridynamics": {"parallel"},
+    "output": {"parallel"},
+    "insitu": {"parallel"},
+    "app": {"parallel", "input", "peridynamics", "output", "insitu"},
+}
+
+
+def sources():
+    return [p for p in SRC.rglob("*") if p.suffix in (".hpp", ".cpp", ".in")]
+
+
+class Rules(unittest.TestCase):
+    def test_includes_go_downwards(self):
+        for path in sources():
+            folder = path.relative_to(SRC).parts[0]
+            if folder == "main.cpp":
+                continue
+            for included in re.findall(r'#include "([^"/]+)/[^"]*"', path.read_text()):
+                allowed = MAY_INCLUDE[folder] | {folder, "core"}
+                self.assertIn(included, allowed, f"{path} includes {included}/")
+
+    def test_include_table_is_documented(self):
+        text = (SRC / "README.md").read_text()
+        for folder, allowed in MAY_INCLUDE.items():
+            listed = ", ".join(f"`{name}`" for name in sorted(allowed)) or "-"
+            self.assertIn(f"| `{folder}` | {listed} |", text)
+
+    def test_mpi_and_openmp_stay_in_parallel(self):
+        for path in sources():
+            if path.relative_to(SRC).parts[0] == "parallel":
+                continue
+            text = path.read_text()
+            self.assertNotRegex(text, r"#include <(mpi|omp)\.h>", str(path))
+            self.assertNotIn("#pragma omp", text, str(path))
+
+    def test_every_paper_equation_is_found_by_grep(self):
+        text = "\n".join(path.read_text() for path in sources())
+        for equation in ("Eq. (1)", "Eq. (2)", "Eq. (4)", "Eq. (5)", "Eq. (6)", "Eq. (8)"):
+            self.assertRegex(text, re.escape(equation), equation)
+
+    def test_files_named_in_the_docs_exist(self):
+        for doc in (ROOT / "README.md", SRC / "README.md"):
+            for link in re.findall(r"\]\(([^)#:]+)\)", doc.read_text()):
+                self.assertTrue((doc.parent / link).exists(), f"{doc}: {link}")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

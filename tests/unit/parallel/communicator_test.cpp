@@ -1,0 +1,54 @@
+#include "parallel/communicator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "parallel/exact_sum.hpp"
+
+namespace rhexis::parallel {
+namespace {
+
+TEST(Communicator, FailureOnOneRankIsKnownToAll) {
+  const auto world = Communicator::world();
+  EXPECT_EQ(world.first_non_empty(""), "");
+  const int last = world.size() - 1;
+  EXPECT_EQ(world.first_non_empty(world.rank() == last ? "disk full" : ""), "disk full");
+}
+
+TEST(Communicator, ReducesAndBroadcasts) {
+  const auto world = Communicator::world();
+  EXPECT_EQ(world.all_reduce(std::int64_t{1}, Reduce::sum), world.size());
+  EXPECT_EQ(world.all_reduce(static_cast<double>(world.rank()), Reduce::max), world.size() - 1);
+  EXPECT_EQ(world.broadcast(world.is_root() ? "text" : ""), "text");
+  EXPECT_EQ(world.node_count(), 1);
+}
+
+TEST(ExactSum, DoesNotDependOnOrderOrRanks) {
+  const auto world = Communicator::world();
+  ExactSum mine(1.0), all(1.0), backwards(1.0);
+  constexpr int terms = 1000;
+  const auto term = [](int i) { return std::sin(i * 1.7) * std::pow(10.0, i % 12 - 8); };
+  for (int i = 0; i < terms; ++i) {
+    all.add(term(i));
+    backwards.add(term(terms - 1 - i));
+    if (i % world.size() == world.rank()) mine.add(term(i));
+  }
+  EXPECT_EQ(all.value(), backwards.value());
+  EXPECT_EQ(mine.value(world), all.value());
+  double plain = 0;
+  for (int i = 0; i < terms; ++i) plain += term(i);
+  EXPECT_NEAR(all.value(), plain, 1e-10);
+}
+
+TEST(ExactSum, NegativeTotalsAndOverflow) {
+  const auto world = Communicator::world();
+  ExactSum sum(1.0);
+  sum.add(-3.25);
+  EXPECT_EQ(sum.value(world), -3.25 * world.size());
+  sum.add(std::nan(""));
+  EXPECT_TRUE(std::isinf(sum.value(world)));
+}
+
+}  // namespace
+}  // namespace rhexis::parallel

@@ -1,0 +1,138 @@
+// Eq. (8)'s layer, schedules, the opening gauge and venting.
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "peridynamics/opening.hpp"
+#include "peridynamics/pressure_layer.hpp"
+#include "peridynamics/schedule.hpp"
+#include "support/vessels.hpp"
+
+namespace rhexis::peridynamics {
+namespace {
+
+/// sum |b| V / (P 2 pi r0 L).
+double relative_resultant(const Parameters& p) {
+  const Lattice lattice = make_lattice(p);
+  const PressureLayer layer = make_pressure_layer(p, lattice);
+  double sum = 0;
+  for (std::size_t c = 0; c < lattice.section.size(); ++c) {
+    sum += std::hypot(layer.bx[c], layer.by[c]) * lattice.volume(c) * static_cast<double>(lattice.rows);
+  }
+  return sum / (2 * std::numbers::pi * p.inner_radius * p.length);
+}
+
+TEST(PressureLayer, ConsistentResultantIsExact) {
+  for (const char* kind : {"lattice", "polar"}) {
+    for (double thickness : {1e-4, 3.5e-4}) {
+      Parameters p = test::paper_vessel();
+      p.cross_section = kind;
+      p.layer = "consistent";
+      p.layer_thickness = thickness;
+      resolve(p);
+      EXPECT_NEAR(relative_resultant(p), 1, 1e-13) << kind << ' ' << thickness;
+    }
+  }
+}
+
+TEST(PressureLayer, PaperResultantIsTooLarge) {
+  // Inside the wall Eq. (8) loads the area between r0 and r0 + delta: (1 + delta / (2 r0)) of the lumen's surface.
+  Parameters p = test::paper_vessel();
+  p.cross_section = "polar";
+  p.spacing = 0.25e-4;  // fine rings, whose areas fill the layer exactly
+  p.horizon = 1e-4;
+  p.layer_thickness = 3.5e-4;
+  resolve(p);
+  EXPECT_NEAR(relative_resultant(p), 1 + 3.5e-4 / (2 * 1.5e-3), 1e-3);
+}
+
+TEST(PressureLayer, PointsOutwardsAndBalances) {
+  Parameters p = test::paper_vessel();
+  resolve(p);
+  const Lattice lattice = make_lattice(p);
+  const PressureLayer layer = make_pressure_layer(p, lattice);
+  double fx = 0, fy = 0;
+  for (std::size_t c = 0; c < lattice.section.size(); ++c) {
+    const double outward = layer.bx[c] * lattice.section.x[c] + layer.by[c] * lattice.section.y[c];
+    EXPECT_EQ(layer.loads(c), outward > 0);
+    fx += layer.bx[c];
+    fy += layer.by[c];
+  }
+  EXPECT_NEAR(fx, 0, 1e-8);
+  EXPECT_NEAR(fy, 0, 1e-8);
+}
+
+TEST(Schedule, Shapes) {
+  Parameters p = test::paper_vessel();
+  p.pressure = 100;
+  p.ramp_time = 2.0;
+  resolve(p);
+  p.schedule = "step";
+  EXPECT_EQ(scheduled_pressure(p, 0), 100);
+  p.schedule = "ramp";
+  EXPECT_EQ(scheduled_pressure(p, 0), 0);
+  EXPECT_EQ(scheduled_pressure(p, 0.5), 25);
+  EXPECT_EQ(scheduled_pressure(p, 3), 100);
+  p.schedule = "smooth_ramp";
+  EXPECT_EQ(scheduled_pressure(p, 0), 0);
+  EXPECT_NEAR(scheduled_pressure(p, 0.5), 100 * (1 - std::sqrt(0.5)) / 2, 1e-12);
+  EXPECT_NEAR(scheduled_pressure(p, 1), 50, 1e-12);
+  EXPECT_EQ(scheduled_pressure(p, 3), 100);
+  p.schedule = "table";
+  p.table = {{1, 10}, {2, 30}, {4, 0}};
+  EXPECT_EQ(scheduled_pressure(p, 0), 10);
+  EXPECT_EQ(scheduled_pressure(p, 1.5), 20);
+  EXPECT_EQ(scheduled_pressure(p, 2), 30);
+  EXPECT_EQ(scheduled_pressure(p, 3), 15);
+  EXPECT_EQ(scheduled_pressure(p, 9), 0);
+}
+
+class Opening : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(CrossSections, Opening, testing::Values("lattice", "polar"));
+
+TEST_P(Opening, IntactAndUniformlyWidenedWallsAreClosed) {
+  Parameters p = test::paper_vessel();
+  p.cross_section = GetParam();
+  BodySetup setup = test::setup_of(p, 1e-7);
+  const Lattice lattice = setup.lattice;
+  const auto body = make_body(std::move(setup), test::self());
+  const OpeningGauge gauge(lattice, *body, test::self());
+  EXPECT_EQ(gauge.area(), 0);
+  body->set_state(test::sample(*body, [](auto x) { return std::array{0.3 * x[0], 0.3 * x[1], 0.0}; }),
+                  test::sample(*body, test::nothing));
+  EXPECT_EQ(gauge.area(), 0);
+}
+
+TEST_P(Opening, KnownSlitIsMeasured) {
+  // The wall is cut along the negative x axis over its middle third and bent open to a gap of known angle.
+  Parameters p = test::paper_vessel(3e-3);
+  p.cross_section = GetParam();
+  BodySetup setup = test::setup_of(p, 1e-7);
+  const Lattice lattice = setup.lattice;
+  const auto body = make_body(std::move(setup), test::self());
+  const OpeningGauge gauge(lattice, *body, test::self());
+  const double mid_radius = 1.75e-3, slit_length = 1e-3;
+  for (double half_angle : {0.1, 0.3, 0.6}) {
+    const auto bent = [&](std::array<double, 3> x) -> std::array<double, 3> {
+      if (x[2] < 1e-3 || x[2] > 2e-3) return {0, 0, 0};
+      const double angle = std::atan2(x[1], x[0]), r = std::hypot(x[0], x[1]);
+      const double turned = angle * (1 - half_angle / std::numbers::pi);
+      return {r * std::cos(turned) - x[0], r * std::sin(turned) - x[1], 0};
+    };
+    body->set_state(test::sample(*body, bent), test::sample(*body, test::nothing));
+    const double exact = 2 * half_angle * mid_radius * slit_length;
+    // Known to about a spacing of width over the slit's rows.
+    EXPECT_NEAR(gauge.area(), exact, 1.2 * lattice.spacing * slit_length) << half_angle;
+  }
+}
+
+TEST(Venting, ClosedForms) {
+  EXPECT_EQ(venting_factor(0, 1e-6), 1);
+  EXPECT_EQ(venting_factor(1e-6, 1e-6), 0.5);
+  // 1 mm2 at 10 kPa of blood: 0.62 x 1e-6 x sqrt(2 x 1e4 / 1060) m3/s.
+  EXPECT_NEAR(orifice_flow(0.62, 1e-6, 1e4, 1060), 2.693e-6, 1e-9);
+  EXPECT_EQ(orifice_flow(0.62, 1e-6, -5, 1060), 0);
+}
+
+}  // namespace
+}  // namespace rhexis::peridynamics
