@@ -7,6 +7,6 @@ int main(int argc, char** argv) {
   rhexis::parallel::Session session(argc, argv);
   testing::InitGoogleTest(&argc, argv);
   const int failed = RUN_ALL_TESTS();
-  return static_cast<int>(
-      rhexis::parallel::Communicator::world().all_reduce(std::int64_t{failed}, rhexis::parallel::Reduce::max));
+  return static_cast<int>(rhexis::parallel::Communicator::world().all_reduce(std::int64_t{failed},
+                                                                             rhexis::parallel::Reduce::max));
 }

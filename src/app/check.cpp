@@ -24,8 +24,8 @@ double seconds_per_step(const Configuration& c, const Lattice& lattice, const Bo
   piece.rows = std::min<std::int64_t>(lattice.rows, 64L * comm.size());
   peridynamics::Parameters parameters = c.vessel;
   parameters.ends = "free";
-  const auto body = peridynamics::make_body(
-      peridynamics::make_setup(parameters, piece, families, c.time_step), comm);
+  const auto body =
+      peridynamics::make_body(peridynamics::make_setup(parameters, piece, families, c.time_step), comm);
   body->advance(0, 0);  // warms caches and pages
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < timed_steps; ++i) body->advance(0, 0);
@@ -34,7 +34,8 @@ double seconds_per_step(const Configuration& c, const Lattice& lattice, const Bo
          static_cast<double>(piece.rows);
 }
 
-/// Bytes that the wall takes: state, what bonds read, bond bits, and fields while they are observed and written.
+/// Bytes that the wall takes: state, what bonds read, bond bits, and fields while they are observed and
+/// written.
 double body_bytes(const Configuration& c, const Lattice& lattice, const BondFamilies& families) {
   const double real = c.vessel.bond_precision == "double" ? sizeof(double) : sizeof(float);
   const auto particles = static_cast<double>(lattice.particles());
@@ -56,10 +57,10 @@ void check(const Configuration& c, parallel::Communicator comm) {
   Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
-  console.item("spacing", quantity(lattice.spacing, "m") + fmt::format(" ({:.1f} across the wall), {} between rows",
-                                                                          (c.vessel.outer_radius - c.vessel.inner_radius) /
-                                                                              lattice.spacing,
-                                                                          quantity(lattice.row_spacing, "m")));
+  console.item("spacing", quantity(lattice.spacing, "m") +
+                              fmt::format(" ({:.1f} across the wall), {} between rows",
+                                          (c.vessel.outer_radius - c.vessel.inner_radius) / lattice.spacing,
+                                          quantity(lattice.row_spacing, "m")));
   console.item("horizon", quantity(lattice.horizon, "m") +
                               fmt::format(" ({:.4g} spacings)", lattice.horizon / lattice.spacing));
   console.item("particles", fmt::format("{} = {} columns x {} rows", grouped(lattice.particles()),
@@ -67,17 +68,18 @@ void check(const Configuration& c, parallel::Communicator comm) {
   console.item("bonds", fmt::format("{}, at most {} a particle",
                                     grouped(peridynamics::count_bonds(lattice, families, periodic)),
                                     peridynamics::largest_family(lattice, families, periodic)));
-  console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps", quantity(c.time_step, "s"),
-                                        100 * c.time_step / c.stable_time_step, quantity(c.stable_time_step, "s"),
-                                        grouped(c.steps)));
+  console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
+                                        quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
+                                        quantity(c.stable_time_step, "s"), grouped(c.steps)));
   console.item("outputs", grouped(static_cast<long long>(c.output_steps.size())));
   console.item("memory", fmt::format("about {:.0f} MB for the wall, all ranks together",
                                      body_bytes(c, lattice, families) / 1e6));
-  console.item("time", fmt::format("about {} of solving on {} rank{} x {} thread{} (measured now; output and pictures "
-                                   "come on top)",
-                                   duration(step * static_cast<double>(c.steps)), comm.size(),
-                                   comm.size() > 1 ? "s" : "", parallel::thread_count(),
-                                   parallel::thread_count() > 1 ? "s" : ""));
+  console.item(
+      "time",
+      fmt::format("about {} of solving on {} rank{} x {} thread{} (measured now; output and pictures "
+                  "come on top)",
+                  duration(step * static_cast<double>(c.steps)), comm.size(), comm.size() > 1 ? "s" : "",
+                  parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
 }
 
 }  // namespace rhexis::app

@@ -6,8 +6,8 @@
 
 namespace rhexis::app {
 
-/// Prints the derived numbers of a valid configuration: spacing, horizon, particles, bonds, time step, memory,
-/// and the time a run will take, from a few steps timed here and now.
+/// Prints the derived numbers of a valid configuration: spacing, horizon, particles, bonds, time step,
+/// memory, and the time a run will take, from a few steps timed here and now.
 void check(const Configuration& c, parallel::Communicator comm);
 
 }  // namespace rhexis::app

@@ -17,11 +17,13 @@ namespace rhexis::app {
 Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   Command command;
   CLI::App cli{"Rhexis: rupture of blood vessels by peridynamics, seen while it runs."};
-  cli.set_version_flag("--version", [] { return build_description(); }, "What this program is and was built with");
+  cli.set_version_flag(
+      "--version", [] { return build_description(); }, "What this program is and was built with");
   cli.require_subcommand(1);
 
   CLI::App* run = cli.add_subcommand("run", "Simulate what an input file describes");
-  CLI::App* check = cli.add_subcommand("check", "Validate an input file; print derived numbers and the expected cost");
+  CLI::App* check =
+      cli.add_subcommand("check", "Validate an input file; print derived numbers and the expected cost");
   CLI::App* keys = cli.add_subcommand("keys", "Explain every key of input files");
   for (CLI::App* sub : {run, check}) {
     sub->add_option("FILE", command.file, "Input file (TOML)")->required();

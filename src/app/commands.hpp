@@ -18,14 +18,14 @@ struct Command {
   std::string restart;                 ///< checkpoint
   std::string section;                 ///< of `keys`
   bool quiet = false;
-  int status = 0;                      ///< exit status where there is nothing to do (help, a wrong call)
+  int status = 0;  ///< exit status where there is nothing to do (help, a wrong call)
 };
 
 /// Prints help, version or what is wrong with the call (on the root rank), then leaves nothing to do.
 Command parse_command_line(int argc, char** argv, parallel::Communicator comm);
 
-/// Does it and returns the exit status: 0, or 130 after an interrupt (as shells have it). Throws InputError and
-/// RunError.
+/// Does it and returns the exit status: 0, or 130 after an interrupt (as shells have it). Throws InputError
+/// and RunError.
 int carry_out(const Command& command, parallel::Communicator comm);
 
 }  // namespace rhexis::app

@@ -58,8 +58,8 @@ void resolve_scripts(Configuration& c) {
   for (std::string& script : c.insitu.scripts) {
     const fs::path beside = fs::path(c.file).parent_path() / script;
     if (!fs::exists(script) && !fs::exists(beside)) {
-      throw InputError("there is no Catalyst script " + fs::absolute(script).lexically_normal().string() + " or " +
-                           fs::absolute(beside).lexically_normal().string(),
+      throw InputError("there is no Catalyst script " + fs::absolute(script).lexically_normal().string() +
+                           " or " + fs::absolute(beside).lexically_normal().string(),
                        "insitu.scripts");
     }
     script = fs::canonical(fs::exists(script) ? fs::path(script) : beside).string();
@@ -69,7 +69,8 @@ void resolve_scripts(Configuration& c) {
 }  // namespace
 
 ParameterList declare(Configuration& c) {
-  ParameterList all{{"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""}};
+  ParameterList all{
+      {"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""}};
   std::vector<std::string> fields;
   for (const FieldInfo& field : peridynamics::ParticleSource::all_fields()) fields.emplace_back(field.name);
   for (const ParameterList& part :

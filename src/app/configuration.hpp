@@ -20,19 +20,19 @@ struct Configuration {
   output::Parameters output;
   insitu::Parameters insitu;
 
-  double stable_time_step = 0;       ///< s
-  double time_step = 0;              ///< s
+  double stable_time_step = 0;  ///< s
+  double time_step = 0;         ///< s
   long steps = 0;
   std::vector<long> output_steps;
   std::vector<std::string> warnings;
-  nlohmann::ordered_json record;     ///< as resolved, for run.json
+  nlohmann::ordered_json record;  ///< as resolved, for run.json
 };
 
 /// Every key there is, bound to `c`.
 ParameterList declare(Configuration& c);
 
-/// Reads and validates `file` with `overrides`, and settles time step and plan of output. Collective: one rank
-/// reads, all get the same configuration or the same InputError.
+/// Reads and validates `file` with `overrides`, and settles time step and plan of output. Collective: one
+/// rank reads, all get the same configuration or the same InputError.
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
                                  parallel::Communicator comm);
 

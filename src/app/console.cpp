@@ -28,9 +28,12 @@ std::string duration(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
 
-Console::Console(bool speaks, bool quiet) : speaks_(speaks && !quiet), terminal_(isatty(STDOUT_FILENO) != 0) {}
+Console::Console(bool speaks, bool quiet)
+    : speaks_(speaks && !quiet), terminal_(isatty(STDOUT_FILENO) != 0) {}
 
-Console::~Console() { clear_bar(); }
+Console::~Console() {
+  clear_bar();
+}
 
 void Console::line(const std::string& text) {
   if (!speaks_) return;

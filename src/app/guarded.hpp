@@ -11,8 +11,9 @@
 
 namespace rhexis::app {
 
-/// Runs `work` and returns its exit status, or 2 for wrong input, or 3 for a failure while running. Both kinds of error are thrown
-/// on all ranks together, so one of them speaks; anything else is one rank's own and ends the program for all.
+/// Runs `work` and returns its exit status, or 2 for wrong input, or 3 for a failure while running. Both
+/// kinds of error are thrown on all ranks together, so one of them speaks; anything else is one rank's own
+/// and ends the program for all.
 template <class Work>
 int guarded(parallel::Communicator comm, const Work& work) {
   const auto say = [&](const char* what) {

@@ -39,10 +39,10 @@ std::string make_movie(const std::filesystem::path& images, const std::filesyste
                                         [](const auto& a, const auto& b) { return a.second < b.second; });
   if (longest == series.end()) return "there are no numbered pictures";
   if (longest->second < 2) return "there is one picture only";
-  const int status = run_program({"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-framerate",
-                                  fmt::format("{}", frames_per_second), "-pattern_type", "glob", "-i",
-                                  (images / (longest->first + "_*.png")).string(), "-c:v", "libx264", "-pix_fmt",
-                                  "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", movie.string()});
+  const int status = run_program(
+      {"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-framerate", fmt::format("{}", frames_per_second),
+       "-pattern_type", "glob", "-i", (images / (longest->first + "_*.png")).string(), "-c:v", "libx264",
+       "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", movie.string()});
   if (status == 127 || status == -1) return "ffmpeg could not be started; is it installed?";
   if (status != 0) return fmt::format("ffmpeg failed with status {}", status);
   return {};

@@ -6,8 +6,8 @@
 
 namespace rhexis::app {
 
-/// Makes `movie` through ffmpeg from the largest series `<name>_<digits>.png` in `images` (the first by name among
-/// equals). Returns an empty text, or the reason why there is none.
+/// Makes `movie` through ffmpeg from the largest series `<name>_<digits>.png` in `images` (the first by name
+/// among equals). Returns an empty text, or the reason why there is none.
 std::string make_movie(const std::filesystem::path& images, const std::filesystem::path& movie,
                        double frames_per_second);
 

@@ -161,8 +161,11 @@ void VesselRun::start_insitu() {
 }
 
 bool VesselRun::pictures_due(long step, bool output_due) {
-  if (!pipeline_ || !pipeline_->wants(step, time_at(step))) return false;
-  return c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : output_due;
+  if (!pipeline_) return false;
+  const bool due =
+      c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : output_due;
+  // Scripts are asked last: the answer may need all ranks.
+  return due && pipeline_->wants(step, time_at(step));
 }
 
 void VesselRun::observe(long step, bool with_output, bool with_pictures) {
@@ -188,8 +191,8 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     const double scale = std::max(std::abs(t.external_work), energy);
     results_.energy_drift = scale > 0 ? (energy - t.external_work) / scale : 0.0;
     history_->append({step, time_at(step), pressure, t.max_displacement, t.max_damage,
-                      static_cast<long>(t.broken_bonds), t.kinetic, t.strain, t.external_work, t.rupture_length,
-                      leak});
+                      static_cast<long>(t.broken_bonds), t.kinetic, t.strain, t.external_work,
+                      t.rupture_length, leak});
     if (series_) series_->write(*source_);
   }
   if (with_pictures) {
@@ -201,10 +204,10 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
 /// Notes what the forces' evaluation at `step` brought about, on any rank.
 void VesselRun::take_notice(long step, std::uint64_t flags) {
   if (flags & Flag::unstable) {
-    throw RunError(fmt::format("the run became unstable at step {} ({}): a particle moved more than a spacing in one "
-                               "step; use a smaller time.step (now {}, stable up to {} for small strain)",
-                               step, quantity(time_at(step), "s"), quantity(c_.time_step, "s"),
-                               quantity(c_.stable_time_step, "s")));
+    throw RunError(fmt::format(
+        "the run became unstable at step {} ({}): a particle moved more than a spacing in one "
+        "step; use a smaller time.step (now {}, stable up to {} for small strain)",
+        step, quantity(time_at(step), "s"), quantity(c_.time_step, "s"), quantity(c_.stable_time_step, "s")));
   }
   if (flags & Flag::broken && !results_.first_bond_break_s) results_.first_bond_break_s = time_at(step);
   if (flags & Flag::ruptured && !results_.rupture_onset_s) {
@@ -236,8 +239,8 @@ void VesselRun::time_loop() {
     console_.progress(step_, c_.steps,
                       fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
                                   quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
-    const bool saves = c_.output.checkpoint_every > 0 && step_ > first_step_ &&
-                       step_ % c_.output.checkpoint_every == 0;
+    const bool saves =
+        c_.output.checkpoint_every > 0 && step_ > first_step_ && step_ % c_.output.checkpoint_every == 0;
     if (interrupted_ || saves) write_checkpoint(step_);
     if (interrupted_ || step_ == c_.steps) return;
 
@@ -290,8 +293,9 @@ void VesselRun::read_checkpoint() {
   std::int64_t pending = 0;
   file.read("time_step", time_step);
   if (time_step != c_.time_step) {
-    throw RunError(fmt::format("{}: the checkpoint was made with a time step of {} s, this run has {} s; set time.step",
-                               options_.restart.string(), time_step, c_.time_step));
+    throw RunError(
+        fmt::format("{}: the checkpoint was made with a time step of {} s, this run has {} s; set time.step",
+                    options_.restart.string(), time_step, c_.time_step));
   }
   file.read("first_kick_pending", pending);
   saved.first_kick_pending = pending != 0;
@@ -321,7 +325,8 @@ void VesselRun::finish_pictures() {
   if (!c_.output.movie) return;
   std::string problem;
   if (comm_.is_root()) {
-    problem = make_movie(options_.directory / "images", options_.directory / "movie.mp4", c_.output.frames_per_second);
+    problem = make_movie(options_.directory / "images", options_.directory / "movie.mp4",
+                         c_.output.frames_per_second);
   }
   if (!problem.empty()) console_.warning("no movie: " + problem);
 }
@@ -344,24 +349,26 @@ output::Performance VesselRun::performance() const {
 
 void VesselRun::say_header() {
   const peridynamics::Parameters& v = c_.vessel;
-  console_.line(fmt::format("Rhexis {} ({}): {}", version(), commit(), c_.title.empty() ? c_.file : c_.title));
+  console_.line(
+      fmt::format("Rhexis {} ({}): {}", version(), commit(), c_.title.empty() ? c_.file : c_.title));
   for (const std::string& warning : c_.warnings) console_.warning(warning);
   console_.item("input", c_.file);
   console_.item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
                                       quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
                                       quantity(v.length, "m"), v.ends));
-  console_.item("particles",
-                fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}", grouped(*results_.particles),
-                            lattice_.section.size(), lattice_.rows, v.cross_section,
-                            quantity(lattice_.spacing, "m"), quantity(lattice_.horizon, "m")));
+  console_.item("particles", fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}",
+                                         grouped(*results_.particles), lattice_.section.size(), lattice_.rows,
+                                         v.cross_section, quantity(lattice_.spacing, "m"),
+                                         quantity(lattice_.horizon, "m")));
   console_.item("bonds", fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
                                      *results_.family_max, v.bond_precision));
   console_.item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
                                     quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
                                     quantity(c_.stable_time_step, "s")));
-  console_.item("load", fmt::format("{} ({}), layer {}, venting {}",
-                                    quantity(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
-                                    v.schedule, v.layer, v.venting));
+  console_.item("load",
+                fmt::format("{} ({}), layer {}, venting {}",
+                            quantity(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
+                            v.schedule, v.layer, v.venting));
   console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
                                         parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
   console_.item("pictures", renderer_);
@@ -379,20 +386,24 @@ void VesselRun::say_summary() {
                                              at(r.rupture_onset_s), peridynamics::rupture_damage,
                                              quantity(*r.rupture_length_m, "m"))
                                : "none");
-  console_.item("at the end", fmt::format("largest displacement {}, largest damage {:.0f} %, opening {:.3g} mm2",
-                                          quantity(*r.max_displacement_m, "m", 3), 100 * *r.max_damage,
-                                          *r.opening_area_m2 * 1e6));
+  console_.item(
+      "at the end",
+      fmt::format("largest displacement {}, largest damage {:.0f} %, opening {:.3g} mm2",
+                  quantity(*r.max_displacement_m, "m", 3), 100 * *r.max_damage, *r.opening_area_m2 * 1e6));
   if (least_vent_ < 1) {
     console_.item("venting", fmt::format("the opening let the pressure fall to {:.0f} % of the scheduled one",
                                          100 * least_vent_));
   }
   console_.item("energy", fmt::format("balance off by {:.1e} of the work done", *r.energy_drift));
   const long steps = step_ - first_step_;
-  console_.item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s", static_cast<double>(steps) / *p.solve_s,
-                                     p.bond_evaluations_per_s.value_or(0)));
-  console_.item("time spent", fmt::format("{} in all: {} solving, {} pictures, {} output", duration(*p.wall_s),
-                                          duration(*p.solve_s), duration(*p.insitu_s), duration(*p.output_s)));
-  console_.item("memory", fmt::format("{:.0f} MB over all ranks", static_cast<double>(*p.peak_rss_bytes) / 1e6));
+  console_.item("speed",
+                fmt::format("{:.0f} steps/s, {:.3g} bonds/s", static_cast<double>(steps) / *p.solve_s,
+                            p.bond_evaluations_per_s.value_or(0)));
+  console_.item("time spent",
+                fmt::format("{} in all: {} solving, {} pictures, {} output", duration(*p.wall_s),
+                            duration(*p.solve_s), duration(*p.insitu_s), duration(*p.output_s)));
+  console_.item("memory",
+                fmt::format("{:.0f} MB over all ranks", static_cast<double>(*p.peak_rss_bytes) / 1e6));
   console_.item("results", options_.directory.string());
 }
 

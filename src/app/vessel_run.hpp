@@ -74,11 +74,11 @@ class VesselRun {
 
   long first_step_ = 0, step_ = 0;
   bool interrupted_ = false;
-  double open_area_ = 0;                       ///< m2
-  double vent_now_ = 1, vent_next_ = 1;        ///< shares of the scheduled pressure, at t_n and t_{n+1}
+  double open_area_ = 0;                 ///< m2
+  double vent_now_ = 1, vent_next_ = 1;  ///< shares of the scheduled pressure, at t_n and t_{n+1}
   double least_vent_ = 1;
   Spent spent_;
-  double started_ = 0;                         ///< s, of the clock
+  double started_ = 0;  ///< s, of the clock
 };
 
 }  // namespace rhexis::app

@@ -1,4 +1,5 @@
-/// Two kinds of failure a user can meet; a broken invariant inside the program is an assert, not one of these.
+/// Two kinds of failure a user can meet; a broken invariant inside the program is an assert, not one of
+/// these.
 #pragma once
 
 #include <stdexcept>

@@ -17,8 +17,8 @@ struct FieldInfo {
   int components = 1;     ///< 1 (scalar) or 3 (vector)
 };
 
-/// Borrowed values of a field on this rank's points: `components` arrays of `count` doubles each (structure of
-/// arrays), contiguous, in the order of the rank's points. Valid until the source advances.
+/// Borrowed values of a field on this rank's points: `components` arrays of `count` doubles each (structure
+/// of arrays), contiguous, in the order of the rank's points. Valid until the source advances.
 struct FieldView {
   FieldInfo info;
   std::array<const double*, 3> component{};
@@ -26,8 +26,8 @@ struct FieldView {
 };
 
 /// Where this rank's points lie in the global, partition-independent numbering id = column * rows + row:
-/// the block of columns [first_column, first_column + column_count) x rows [first_row, first_row + row_count),
-/// stored column by column.
+/// the block of columns [first_column, first_column + column_count) x rows [first_row, first_row +
+/// row_count), stored column by column.
 struct PointLayout {
   std::int64_t columns = 0, rows = 0;  ///< of the whole body
   std::int64_t first_column = 0, column_count = 0;

@@ -33,19 +33,20 @@ struct Range {
 using CurvePoint = std::pair<double, double>;
 
 /// Where the value goes. optional<double>: the text "auto" leaves it empty.
-using ParameterTarget = std::variant<double*, std::optional<double>*, std::int64_t*, std::optional<std::int64_t>*,
-                                     bool*, std::string*, std::vector<std::string>*, std::vector<double>*,
-                                     std::vector<CurvePoint>*>;
+using ParameterTarget =
+    std::variant<double*, std::optional<double>*, std::int64_t*, std::optional<std::int64_t>*, bool*,
+                 std::string*, std::vector<std::string>*, std::vector<double>*, std::vector<CurvePoint>*>;
 
 struct Parameter {
   std::string key;         ///< "section.name", e.g. "vessel.inner_radius"
   ParameterTarget target;  ///< typed home of the value, in SI units
-  std::string unit;        ///< "m", "Pa", "s", ...; "1" for a plain number; for a curve "s, Pa"; empty for text
-  std::optional<std::string> default_text;  ///< as a user would write it in TOML, e.g. "\"1.5 mm\"" or "0.25"; none: required
-  std::string meaning;                      ///< one sentence
-  std::string source = {};                  ///< paper and equation or table, where there is one
-  Range range = {};                         ///< of each number
-  std::vector<std::string> choices = {};    ///< allowed words of a text; empty: any
+  std::string unit;  ///< "m", "Pa", "s", ...; "1" for a plain number; for a curve "s, Pa"; empty for text
+  std::optional<std::string>
+      default_text;         ///< as a user would write it in TOML, e.g. "\"1.5 mm\"" or "0.25"; none: required
+  std::string meaning;      ///< one sentence
+  std::string source = {};  ///< paper and equation or table, where there is one
+  Range range = {};         ///< of each number
+  std::vector<std::string> choices = {};  ///< allowed words of a text; empty: any
 };
 
 using ParameterList = std::vector<Parameter>;

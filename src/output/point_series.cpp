@@ -49,8 +49,6 @@ PointSeries::PointSeries(const PointSeriesPlan& plan, const PointLayout& layout,
   }
   for (const long step : plan.steps) planned_places_[step] = fmt::format("{:06}", step);
   const std::filesystem::path path = plan.directory / hdf5_name_;
-  // By the root alone, because ranks that share the writing of metadata wait for each other for ever if one
-  // fails.
   on_root<RunError>(communicator_, [&] {
     const std::size_t datasets = fields_.size() * (planned_places_.size() + 1) + 2;
     change_structure(path, Hdf5File::Mode::create, datasets, [&](Hdf5File& file) { lay_out(file, plan); });
@@ -93,27 +91,35 @@ void PointSeries::write_connectivity() {
   file_->write("/connectivity", H5T_NATIVE_INT64, slab_of(layout_, 1), ids.data());
 }
 
-void PointSeries::write_values(const std::string& dataset, const FieldView& view, int components) {
+const void* PointSeries::packed(const FieldView& view, int components) {
   const auto count = static_cast<std::size_t>(layout_.local_count());
   if (view.count != count || view.info.components != components) {
-    throw std::logic_error(fmt::format("{}: {} points of {} components given, {} of {} laid out", dataset,
-                                       view.count, view.info.components, count, components));
+    throw std::logic_error(fmt::format("{}: {} points of {} components given, {} of {} laid out",
+                                       view.info.name, view.count, view.info.components, count, components));
   }
   const std::size_t values = count * static_cast<std::size_t>(components);
   // Converted here, because a conversion by HDF5 would make the write independent instead of collective.
   if (precision_ == Precision::single_precision) {
     singles_.resize(values);
     interleave(view, singles_.data());
-    file_->write(dataset, H5T_NATIVE_FLOAT, slab_of(layout_, components), singles_.data());
-  } else {
-    doubles_.resize(values);
-    interleave(view, doubles_.data());
-    file_->write(dataset, H5T_NATIVE_DOUBLE, slab_of(layout_, components), doubles_.data());
+    return singles_.data();
   }
+  doubles_.resize(values);
+  interleave(view, doubles_.data());
+  return doubles_.data();
+}
+
+void PointSeries::write_values(const std::string& dataset, int components,
+                               const std::function<FieldView()>& view) {
+  const hid_t type = precision_ == Precision::single_precision ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE;
+  const void* values = nullptr;
+  together<RunError>(communicator_, [&] { values = packed(view(), components); });
+  together<RunError>(communicator_,
+                     [&] { file_->write(dataset, type, slab_of(layout_, components), values); });
 }
 
 void PointSeries::write_reference(const FieldView& undeformed_positions) {
-  together<RunError>(communicator_, [&] { write_values("/reference_position", undeformed_positions, 3); });
+  write_values("/reference_position", 3, [&] { return undeformed_positions; });
 }
 
 void PointSeries::write(PointSource& source) {
@@ -125,10 +131,8 @@ void PointSeries::write(PointSource& source) {
   for (const StoredField& field : fields_) datasets.push_back(dataset_name(field.name, place));
   reserve(datasets);
   for (const StoredField& field : fields_) {
-    together<RunError>(communicator_, [&] {
-      const FieldView view = field.name == position ? source.positions() : source.field(field.name);
-      write_values(dataset_name(field.name, place), view, field.components);
-    });
+    write_values(dataset_name(field.name, place), field.components,
+                 [&] { return field.name == position ? source.positions() : source.field(field.name); });
   }
   together<RunError>(communicator_, [&] { sync_to_disk(file_->path()); });
 
@@ -169,7 +173,9 @@ std::string PointSeries::xdmf_grid(const PointSource& source, const std::string&
   }
   for (const Annotation& note : source.annotations()) {
     grid += fmt::format(
-        R"(        <Attribute Name="{}" AttributeType="Scalar" Center="Grid"><DataItem Dimensions="1" NumberType="Float" Precision="8" Format="XML">{}</DataItem></Attribute>
+        R"(        <Attribute Name="{}" AttributeType="Scalar" Center="Grid">
+          <DataItem Dimensions="1" NumberType="Float" Precision="8" Format="XML">{}</DataItem>
+        </Attribute>
 )",
         note.name, note.value);
   }

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -67,7 +68,8 @@ class PointSeries {
 
   void lay_out(Hdf5File& file, const PointSeriesPlan& plan) const;
   void write_connectivity();
-  void write_values(const std::string& dataset, const FieldView& view, int components);
+  const void* packed(const FieldView& view, int components);
+  void write_values(const std::string& dataset, int components, const std::function<FieldView()>& view);
   void reserve(const std::vector<std::string>& datasets);
   std::string xdmf_grid(const PointSource& source, const std::string& place) const;
   void write_xdmf() const;

@@ -9,8 +9,8 @@
 namespace rhexis::output {
 
 /// Runs `action` on every rank (collective). If it throws on any, every rank throws `Error` with the message
-/// of the first rank that failed. Inside the action, a rank that may fail alone must make no collective call
-/// later.
+/// of the first rank that failed. The action is either local, or one collective operation: a rank that could
+/// throw on its own before a collective call would leave the others waiting in it.
 template <class Error, class Action>
 void together(const parallel::Communicator& communicator, Action&& action) {
   std::string failure;

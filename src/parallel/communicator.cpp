@@ -34,7 +34,9 @@ Session::Session(int& argc, char**& argv) {
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
 }
 
-Session::~Session() { MPI_Finalize(); }
+Session::~Session() {
+  MPI_Finalize();
+}
 
 int Communicator::rank() const {
   int rank = 0;
@@ -48,7 +50,9 @@ int Communicator::size() const {
   return size;
 }
 
-void Communicator::barrier() const { MPI_Barrier(handle_); }
+void Communicator::barrier() const {
+  MPI_Barrier(handle_);
+}
 
 int Communicator::node_count() const {
   MPI_Comm node;
@@ -98,6 +102,8 @@ std::string Communicator::first_non_empty(const std::string& text) const {
   return first == size() ? std::string{} : broadcast(text, static_cast<int>(first));
 }
 
-int thread_count() { return omp_get_max_threads(); }
+int thread_count() {
+  return omp_get_max_threads();
+}
 
 }  // namespace rhexis::parallel

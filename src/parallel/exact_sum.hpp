@@ -9,8 +9,9 @@
 
 namespace rhexis::parallel {
 
-/// Fixed-point accumulator: terms are cut to a quantum 2^-80 times the power of two above `scale` and added as
-/// 128-bit integers, which is exact. Terms up to 2^20 times the scale fit; larger ones (or nan) make it infinite.
+/// Fixed-point accumulator: terms are cut to a quantum 2^-80 times the power of two above `scale` and added
+/// as 128-bit integers, which is exact. Terms up to 2^20 times the scale fit; larger ones (or nan) make it
+/// infinite.
 class ExactSum {
  public:
   explicit ExactSum(double scale) : quantum_(std::ldexp(1.0, std::ilogb(scale) + 1 - 80)) {}

@@ -20,7 +20,8 @@ void pack(const std::array<Real*, 3>& field, const std::vector<Run>& runs, std::
 }
 
 template <class Real>
-void unpack(const std::vector<Real>& buffer, const std::vector<Run>& runs, const std::array<Real*, 3>& field) {
+void unpack(const std::vector<Real>& buffer, const std::vector<Run>& runs,
+            const std::array<Real*, 3>& field) {
   const Real* in = buffer.data();
   for (const Run& run : runs) {
     for (Real* component : field) {

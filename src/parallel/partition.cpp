@@ -42,9 +42,13 @@ double heaviest(std::span<const double> weights, const std::vector<std::int64_t>
 
 }  // namespace
 
-int Partition::column_part_of(std::int64_t column) const { return part_of(column_start, column); }
+int Partition::column_part_of(std::int64_t column) const {
+  return part_of(column_start, column);
+}
 
-int Partition::block_part_of_row(std::int64_t row) const { return part_of(block_start, row / block_rows); }
+int Partition::block_part_of_row(std::int64_t row) const {
+  return part_of(block_start, row / block_rows);
+}
 
 std::int64_t Partition::past_row(int rank) const {
   return std::min(rows, block_start[rank / column_parts() + 1] * block_rows);

@@ -11,8 +11,8 @@ namespace rhexis::parallel {
 /// block is then summed in the same order whatever the partition.
 inline constexpr std::int64_t block_rows = 16;
 
-/// Rank r holds columns [column_start[i], column_start[i+1]) and blocks [block_start[k], block_start[k+1]) with
-/// i = r % column_parts(), k = r / column_parts().
+/// Rank r holds columns [column_start[i], column_start[i+1]) and blocks [block_start[k], block_start[k+1])
+/// with i = r % column_parts(), k = r / column_parts().
 struct Partition {
   std::vector<std::int64_t> column_start, block_start;
   std::int64_t rows = 0;

@@ -5,8 +5,8 @@
 
 namespace rhexis::parallel {
 
-/// Calls `work(thread, begin, end)` once on each thread, with contiguous shares of [0, count) that are the same
-/// in every call: a thread meets the same data each step. `work` must not throw.
+/// Calls `work(thread, begin, end)` once on each thread, with contiguous shares of [0, count) that are the
+/// same in every call: a thread meets the same data each step. `work` must not throw.
 template <class Work>
 void for_each_share(int threads, std::size_t count, const Work& work) {
 #pragma omp parallel for schedule(static, 1) num_threads(threads)

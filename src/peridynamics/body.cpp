@@ -21,7 +21,8 @@ using parallel::ExactSum;
 
 /// Steps between looks at how far the body has moved as a whole.
 constexpr long frame_interval = 64;
-/// Once its middle is this many spacings from the frame, the frame follows, lest single precision loses digits.
+/// Once its middle is this many spacings from the frame, the frame follows, lest single precision loses
+/// digits.
 constexpr double frame_tolerance = 4;
 
 /// One block of 16 rows of one owned column: the unit of work.
@@ -105,7 +106,8 @@ class ColumnBody final : public Body {
     std::vector<double> weights(columns);
     for (std::size_t c = 0; c < columns; ++c) weights[c] = static_cast<double>(setup.families.count(c));
     // Columns within a horizon of a radial cut through one side of the wall, both sides cut.
-    const double share = setup.lattice.horizon / (setup.lattice.spacing * std::sqrt(static_cast<double>(columns)));
+    const double share =
+        setup.lattice.horizon / (setup.lattice.spacing * std::sqrt(static_cast<double>(columns)));
     const auto halo = static_cast<std::int64_t>(share * static_cast<double>(columns)) + 1;
     return parallel::make_partition(ranks, weights, setup.lattice.rows, halo, setup.families.reach);
   }
@@ -118,7 +120,8 @@ class ColumnBody final : public Body {
     return static_cast<std::size_t>(unit.slot * domain_.layout().row_count + unit.block * block_rows);
   }
   std::size_t padded_place(Unit unit) const {
-    return domain_.padded(static_cast<std::size_t>(unit.slot)) + static_cast<std::size_t>(unit.block * block_rows);
+    return domain_.padded(static_cast<std::size_t>(unit.slot)) +
+           static_cast<std::size_t>(unit.block * block_rows);
   }
   std::span<const BondConstants<Real>> bonds_of(Unit unit) const {
     const std::int64_t begin = first_bond_[unit.slot], end = first_bond_[unit.slot + 1];
@@ -158,23 +161,23 @@ class ColumnBody final : public Body {
   parallel::HaloExchange<Real> halo_;
   double inverse_spacing_;
 
-  std::vector<std::int64_t> first_bond_;     ///< of owned columns, into bonds_
+  std::vector<std::int64_t> first_bond_;  ///< of owned columns, into bonds_
   std::vector<BondConstants<Real>> bonds_;
   std::vector<std::uint16_t> intact_;
-  std::vector<Unit> interior_, boundary_;    ///< units that read no halo, units that do
+  std::vector<Unit> interior_, boundary_;  ///< units that read no halo, units that do
 
   std::array<std::vector<double>, 3> u_, v_;  ///< m; m/s at half a step back (see first_kick_pending_)
   std::array<Padded, 2> padded_;
   int now_ = 0;
-  std::array<double, 3> frame_{};     ///< m, subtracted from u in padded arrays
-  bool first_kick_pending_ = true;    ///< v_ is at the same time as u_
+  std::array<double, 3> frame_{};   ///< m, subtracted from u in padded arrays
+  bool first_kick_pending_ = true;  ///< v_ is at the same time as u_
   long steps_ = 0;
   bool damaged_ = false;
-  std::int64_t pending_broken_ = 0;   ///< broken while observing, to be told by the next step
+  std::int64_t pending_broken_ = 0;  ///< broken while observing, to be told by the next step
   std::int64_t intact_directed_ = 0;
   std::int64_t bond_evaluations_ = 0;
   ExactSum work_;
-  double work_before_ = 0;            ///< J, done before a restart (on rank 0)
+  double work_before_ = 0;  ///< J, done before a restart (on rank 0)
   Observation observation_;
   Totals local_totals_;
   ThreadTotals observed_{1.0};
@@ -191,7 +194,8 @@ void ColumnBody<Law, Real>::make_bonds() {
     for (std::int64_t b = setup_.families.first[column]; b < setup_.families.first[column + 1]; ++b) {
       const Bond& bond = setup_.families.bonds[b];
       const double volume = lattice.volume(bond.other) / unit_volume;
-      const auto offset = static_cast<std::int64_t>(domain_.padded(domain_.slot(bond.other))) + bond.row_offset -
+      const auto offset = static_cast<std::int64_t>(domain_.padded(domain_.slot(bond.other))) +
+                          bond.row_offset -
                           static_cast<std::int64_t>(domain_.padded(static_cast<std::size_t>(c)));
       bonds_.push_back({{Real(bond.xi[0]), Real(bond.xi[1]), Real(bond.xi[2])},
                         Real(1 / (bond.length * bond.length)),
@@ -219,13 +223,14 @@ template <class Law, class Real>
 void ColumnBody<Law, Real>::make_units() {
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
     for (std::int32_t block = 0; block < domain_.blocks(); ++block) {
-      (domain_.interior(static_cast<std::size_t>(slot), block) ? interior_ : boundary_).push_back({slot, block});
+      (domain_.interior(static_cast<std::size_t>(slot), block) ? interior_ : boundary_)
+          .push_back({slot, block});
     }
   }
 }
 
-/// Moves the frame to the middle of the body's displacements, found from exact minima and maxima so that every
-/// partition takes the same.
+/// Moves the frame to the middle of the body's displacements, found from exact minima and maxima so that
+/// every partition takes the same.
 template <class Law, class Real>
 void ColumnBody<Law, Real>::follow_body() {
   double extremes[6];
@@ -277,7 +282,8 @@ template <class Law, class Real>
 std::pair<int, int> ColumnBody<Law, Real>::free_rows(Unit unit) const {
   const int rows = domain_.rows_in(unit.block);
   if (setup_.ends != EndCondition::clamped && setup_.ends != EndCondition::sliding) return {0, rows};
-  const auto held = static_cast<std::int64_t>(std::ceil(setup_.end_length / setup_.lattice.row_spacing - 1e-9));
+  const auto held =
+      static_cast<std::int64_t>(std::ceil(setup_.end_length / setup_.lattice.row_spacing - 1e-9));
   const std::int64_t first = domain_.layout().first_row + unit.block * block_rows;
   const auto local = [&](std::int64_t row) {
     return static_cast<int>(std::clamp<std::int64_t>(row - first, 0, rows));
@@ -315,7 +321,8 @@ bool ColumnBody<Law, Real>::has_ruptured(Unit unit) const {
   return false;
 }
 
-/// Runs `work(unit, per_thread[t])` over all units; the halo travels while units that do not need it are done.
+/// Runs `work(unit, per_thread[t])` over all units; the halo travels while units that do not need it are
+/// done.
 template <class Law, class Real>
 template <class PerThread, class Work>
 void ColumnBody<Law, Real>::with_halo(std::vector<PerThread>& per_thread, const Work& work) {
@@ -382,9 +389,8 @@ StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure)
   const double kick = first_kick_pending_ ? 0.5 * setup_.time_step : setup_.time_step;
   const double work_pressure = 0.5 * (pressure + next_pressure);
   std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
-  with_halo(per_thread, [&](Unit unit, ThreadEvents& events) {
-    step_unit(unit, pressure, work_pressure, kick, events);
-  });
+  with_halo(per_thread,
+            [&](Unit unit, ThreadEvents& events) { step_unit(unit, pressure, work_pressure, kick, events); });
   now_ = 1 - now_;
   first_kick_pending_ = false;
   ++steps_;
@@ -513,7 +519,8 @@ Totals ColumnBody<Law, Real>::totals() const {
   totals.broken_bonds = comm_.all_reduce(born - intact_directed_, parallel::Reduce::sum) / 2;
   const std::int64_t first = comm_.all_reduce(observed_.ruptured_first, parallel::Reduce::min);
   const std::int64_t last = comm_.all_reduce(observed_.ruptured_last, parallel::Reduce::max);
-  if (last >= first) totals.rupture_length = static_cast<double>(last - first + 1) * setup_.lattice.row_spacing;
+  if (last >= first)
+    totals.rupture_length = static_cast<double>(last - first + 1) * setup_.lattice.row_spacing;
   return totals;
 }
 

@@ -21,9 +21,9 @@ namespace rhexis::peridynamics {
 
 /// What happened on this rank in one step.
 struct StepEvents {
-  std::int64_t broken = 0;      ///< directed bonds broken by the forces' evaluation at t_n
-  bool damaged = false;         ///< a particle's damage has reached `rupture_damage`
-  bool unstable = false;        ///< a particle moved more than a spacing in one step, or is not a number
+  std::int64_t broken = 0;  ///< directed bonds broken by the forces' evaluation at t_n
+  bool damaged = false;     ///< a particle's damage has reached `rupture_damage`
+  bool unstable = false;    ///< a particle moved more than a spacing in one step, or is not a number
 };
 
 /// Damage from which a particle counts as ruptured (run.json: rupture_onset_s, rupture_length_m).
@@ -40,7 +40,7 @@ struct Observation {
 /// Sums over the whole body (all ranks), independent of the partition. SI units.
 struct Totals {
   double kinetic = 0, strain = 0, fracture = 0, external_work = 0;  ///< J
-  double max_displacement = 0;                                       ///< m
+  double max_displacement = 0;                                      ///< m
   double max_damage = 0;
   std::int64_t broken_bonds = 0;  ///< undirected
   double rupture_length = 0;      ///< m, axial extent of damage >= rupture_damage, reference rows
@@ -83,8 +83,8 @@ class Body {
   /// Directed bond evaluations so far, on this rank.
   virtual std::int64_t bond_evaluations() const = 0;
 
-  /// All that a restart needs beside displacement: leapfrog velocity (m/s), bond words and the work done so far.
-  /// Words stand row by row as `bond_word_layout` says.
+  /// All that a restart needs beside displacement: leapfrog velocity (m/s), bond words and the work done so
+  /// far. Words stand row by row as `bond_word_layout` says.
   struct Saved {
     std::array<std::vector<double>, 3> displacement, leapfrog_velocity;
     std::vector<std::uint16_t> words;
@@ -102,12 +102,12 @@ struct BodySetup {
   BondFamilies families;
   PressureLayer layer;
   EndCondition ends = EndCondition::free;
-  double end_length = 0;        ///< m held at each end
-  double density = 0;           ///< kg/m3
-  double bond_constant = 0;     ///< N/m6
+  double end_length = 0;     ///< m held at each end
+  double density = 0;        ///< kg/m3
+  double bond_constant = 0;  ///< N/m6
   double critical_stretch = 0;
-  double time_step = 0;         ///< s
-  double energy_scale = 0;      ///< J, order of magnitude of the energies that will occur
+  double time_step = 0;     ///< s
+  double energy_scale = 0;  ///< J, order of magnitude of the energies that will occur
   bool double_bonds = false;
 };
 

@@ -82,7 +82,8 @@ std::int64_t BondFamilies::largest() const {
 
 std::int64_t count_bonds(const Lattice& lattice, const BondFamilies& families, bool periodic) {
   std::int64_t directed = 0;
-  for (const Bond& bond : families.bonds) directed += rows_with_partner(lattice.rows, bond.row_offset, periodic);
+  for (const Bond& bond : families.bonds)
+    directed += rows_with_partner(lattice.rows, bond.row_offset, periodic);
   return directed / 2;
 }
 

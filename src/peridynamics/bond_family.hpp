@@ -1,7 +1,7 @@
 /// Bond families of an extruded body: one short list per column, the same for all of its rows.
 ///
-/// A bond of column i goes to (other column, axial offset): the particle in row k is bonded to row k + offset of
-/// the other column. Which of these bonds exist at a row is a question of the body's ends only.
+/// A bond of column i goes to (other column, axial offset): the particle in row k is bonded to row k + offset
+/// of the other column. Which of these bonds exist at a row is a question of the body's ends only.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ namespace rhexis::peridynamics {
 struct Bond {
   std::int32_t other;  ///< column
   std::int32_t row_offset;
-  double xi[3];    ///< reference vector to the other particle, in spacings
-  double length;   ///< |xi|, in spacings
+  double xi[3];   ///< reference vector to the other particle, in spacings
+  double length;  ///< |xi|, in spacings
 };
 
-/// Bonds of all columns, those of column c at [first[c], first[c + 1]), ordered by (other, row_offset): an order
-/// that no partition changes, so that sums do not depend on one.
+/// Bonds of all columns, those of column c at [first[c], first[c + 1]), ordered by (other, row_offset): an
+/// order that no partition changes, so that sums do not depend on one.
 struct BondFamilies {
   std::vector<std::int64_t> first;
   std::vector<Bond> bonds;
@@ -40,8 +40,8 @@ std::int64_t count_bonds(const Lattice& lattice, const BondFamilies& families, b
 std::int64_t largest_family(const Lattice& lattice, const BondFamilies& families, bool periodic);
 
 /// Stable time step of velocity Verlet for bonds of stiffness c/|xi|, s:
-/// dt = sqrt(2 rho / max_i sum_j c V_j / |xi_ij|) (Silling & Askari 2005, Eq. 36, for any direction of motion).
-/// `bond_constant` in N/m6, `density` in kg/m3.
+/// dt = sqrt(2 rho / max_i sum_j c V_j / |xi_ij|) (Silling & Askari 2005, Eq. 36, for any direction of
+/// motion). `bond_constant` in N/m6, `density` in kg/m3.
 double stable_time_step(const Lattice& lattice, const BondFamilies& families, double bond_constant,
                         double density);
 

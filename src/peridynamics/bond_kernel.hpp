@@ -1,10 +1,11 @@
 /// The inner loop: forces of one column's bonds on 16 of its rows at once (Eqs. 1, 2, 5).
 ///
-/// Gather: every particle sums its whole family, in the family's fixed order, lane by lane; nothing is scattered.
-/// So the digits do not depend on threads, ranks or vector width, and as |xi + eta|^2 is computed from
-/// terms that change only their sign between the two ends, both ends break a bond in the same step.
+/// Gather: every particle sums its whole family, in the family's fixed order, lane by lane; nothing is
+/// scattered. So the digits do not depend on threads, ranks or vector width, and as |xi + eta|^2 is computed
+/// from terms that change only their sign between the two ends, both ends break a bond in the same step.
 ///
-/// Lengths are in spacings. With y = xi + eta:  t = eta . (xi + y) / |xi|^2  is (1 + s)^2 - 1 without cancellation.
+/// Lengths are in spacings. With y = xi + eta:  t = eta . (xi + y) / |xi|^2  is (1 + s)^2 - 1 without
+/// cancellation.
 #pragma once
 
 #include <hwy/highway.h>
@@ -46,8 +47,8 @@ struct BlockSums {
   int broken = 0;                                 ///< directed bonds that broke now
 };
 
-/// Floating-point operations of one bond when it pulls: 9 for eta, y and xi + y, 6 for t, 12 for g(t), 1 for k,
-/// 6 for the force (a fused multiply-add counts as two, the approximate root as one).
+/// Floating-point operations of one bond when it pulls: 9 for eta, y and xi + y, 6 for t, 12 for g(t), 1 for
+/// k, 6 for the force (a fused multiply-add counts as two, the approximate root as one).
 inline constexpr double flop_per_bond = 34;
 
 namespace detail {
@@ -105,9 +106,8 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
       const V y_x = hn::Add(eta_x, xi_x);
       const V y_y = hn::Add(eta_y, xi_y);
       const V y_z = hn::Add(eta_z, xi_z);
-      const V q = hn::MulAdd(
-          eta_z, hn::Add(y_z, xi_z),
-          hn::MulAdd(eta_y, hn::Add(y_y, xi_y), hn::Mul(eta_x, hn::Add(y_x, xi_x))));
+      const V q = hn::MulAdd(eta_z, hn::Add(y_z, xi_z),
+                             hn::MulAdd(eta_y, hn::Add(y_y, xi_y), hn::Mul(eta_x, hn::Add(y_x, xi_x))));
       const V t = hn::Mul(q, hn::Set(d, bond.inverse_length2));
 
       const auto broken = hn::And(present, hn::Ge(t, breaking_t));

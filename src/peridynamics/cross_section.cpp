@@ -63,14 +63,16 @@ CrossSection polar_cross_section(double inner_radius, double outer_radius, doubl
   CrossSection section;
   for (long t = 0; t < per_ring; ++t) {
     // Half a step off the axes, so that opposite columns are exact mirror images.
-    const double angle = 2 * std::numbers::pi * (static_cast<double>(t) + 0.5) / static_cast<double>(per_ring);
+    const double angle =
+        2 * std::numbers::pi * (static_cast<double>(t) + 0.5) / static_cast<double>(per_ring);
     for (long k = 0; k < rings; ++k) {
       const double r_in = inner_radius + wall * static_cast<double>(k) / static_cast<double>(rings);
       const double r_out = inner_radius + wall * static_cast<double>(k + 1) / static_cast<double>(rings);
       const double r = 0.5 * (r_in + r_out);
       section.x.push_back(r * std::cos(angle));
       section.y.push_back(r * std::sin(angle));
-      section.area.push_back(std::numbers::pi * (r_out * r_out - r_in * r_in) / static_cast<double>(per_ring));
+      section.area.push_back(std::numbers::pi * (r_out * r_out - r_in * r_in) /
+                             static_cast<double>(per_ring));
     }
   }
   return sorted_by_angle(section);
@@ -82,8 +84,8 @@ Lattice make_lattice(const Parameters& p) {
   lattice.horizon = *p.horizon;
   lattice.section = p.cross_section == "polar"
                         ? polar_cross_section(p.inner_radius, p.outer_radius, *p.spacing)
-                        : lattice_cross_section(p.inner_radius, p.outer_radius, *p.spacing, p.lattice_shift[0],
-                                                p.lattice_shift[1]);
+                        : lattice_cross_section(p.inner_radius, p.outer_radius, *p.spacing,
+                                                p.lattice_shift[0], p.lattice_shift[1]);
   if (lattice.section.size() == 0) {
     throw InputError("no particle falls into the wall at this spacing", "discretisation.spacing");
   }

@@ -1,7 +1,7 @@
 /// Cross-sections of the wall: one point per column of particles.
 ///
-/// A straight vessel is a cross-section extruded along z. Column c stands at (x[c], y[c]) and owns area[c]; its
-/// particles lie at z = (row + 1/2) * row_spacing and have volume area[c] * row_spacing.
+/// A straight vessel is a cross-section extruded along z. Column c stands at (x[c], y[c]) and owns area[c];
+/// its particles lie at z = (row + 1/2) * row_spacing and have volume area[c] * row_spacing.
 #pragma once
 
 #include <cstddef>

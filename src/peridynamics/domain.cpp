@@ -12,8 +12,7 @@ constexpr std::int64_t block_rows = parallel::block_rows;
 std::uint16_t bit_range(std::int64_t low, std::int64_t high) {
   low = std::clamp<std::int64_t>(low, 0, block_rows);
   high = std::clamp<std::int64_t>(high, 0, block_rows);
-  return low >= high ? std::uint16_t{0}
-                     : static_cast<std::uint16_t>(((1u << (high - low)) - 1u) << low);
+  return low >= high ? std::uint16_t{0} : static_cast<std::uint16_t>(((1u << (high - low)) - 1u) << low);
 }
 
 }  // namespace
@@ -39,13 +38,13 @@ Domain::Domain(const Lattice& lattice, const BondFamilies& families, const paral
     slot_column_.push_back(static_cast<std::int32_t>(layout_.first_column + c));
   }
   for (std::int32_t c : halo_columns(rank)) slot_column_.push_back(c);
-  for (std::size_t s = 0; s < slot_column_.size(); ++s) slot_of_[slot_column_[s]] = static_cast<std::int32_t>(s);
+  for (std::size_t s = 0; s < slot_column_.size(); ++s)
+    slot_of_[slot_column_[s]] = static_cast<std::int32_t>(s);
   for (std::int64_t c = 0; c < layout_.column_count; ++c) {
     const auto column = static_cast<std::size_t>(layout_.first_column + c);
-    all_neighbours_owned_.push_back(
-        std::all_of(families.bonds.begin() + families.first[column],
-                    families.bonds.begin() + families.first[column + 1],
-                    [&](const Bond& bond) { return slot_of_[bond.other] < layout_.column_count; }));
+    all_neighbours_owned_.push_back(std::all_of(
+        families.bonds.begin() + families.first[column], families.bonds.begin() + families.first[column + 1],
+        [&](const Bond& bond) { return slot_of_[bond.other] < layout_.column_count; }));
   }
 }
 

@@ -1,4 +1,5 @@
-/// A rank's piece of the vessel: which columns and rows it owns, which it only reads, and how they lie in memory.
+/// A rank's piece of the vessel: which columns and rows it owns, which it only reads, and how they lie in
+/// memory.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +13,9 @@
 
 namespace rhexis::peridynamics {
 
-/// Memory of padded arrays (what bonds read): one slot of `stride` values per column, owned columns first, then
-/// halo columns; row `first_row` of a column stands at `front` in its slot, with halo rows before and after it.
+/// Memory of padded arrays (what bonds read): one slot of `stride` values per column, owned columns first,
+/// then halo columns; row `first_row` of a column stands at `front` in its slot, with halo rows before and
+/// after it.
 class Domain {
  public:
   Domain(const Lattice& lattice, const BondFamilies& families, const parallel::Partition& partition, int rank,
@@ -21,7 +23,9 @@ class Domain {
 
   const PointLayout& layout() const { return layout_; }
   bool periodic() const { return periodic_; }
-  std::int64_t blocks() const { return (layout_.row_count + parallel::block_rows - 1) / parallel::block_rows; }
+  std::int64_t blocks() const {
+    return (layout_.row_count + parallel::block_rows - 1) / parallel::block_rows;
+  }
   std::size_t stride() const { return stride_; }
   std::size_t padded_size() const { return stride_ * slot_column_.size(); }
 
@@ -45,7 +49,7 @@ class Domain {
   struct Needed {
     std::int32_t column;
     std::int64_t first_row, count;  ///< count rows, all of one owner
-    std::int64_t halo_row;          ///< row number in the reader's halo; differs from first_row across a period
+    std::int64_t halo_row;  ///< row number in the reader's halo; differs from first_row across a period
     int owner;
   };
   std::vector<std::int32_t> halo_columns(int rank) const;
@@ -58,9 +62,9 @@ class Domain {
   int reach_;
   PointLayout layout_;
   std::size_t front_ = 0, stride_ = 0;
-  std::vector<std::int32_t> slot_column_;  ///< slot -> global column
-  std::vector<std::int32_t> slot_of_;      ///< global column -> slot, -1 where not here
-  std::vector<char> all_neighbours_owned_; ///< per owned column
+  std::vector<std::int32_t> slot_column_;   ///< slot -> global column
+  std::vector<std::int32_t> slot_of_;       ///< global column -> slot, -1 where not here
+  std::vector<char> all_neighbours_owned_;  ///< per owned column
 };
 
 }  // namespace rhexis::peridynamics

@@ -14,8 +14,8 @@ namespace rhexis::peridynamics {
 /// Each axial row looks at the angles of its particles, all through the wall: a run of angles without any
 /// particle is a gap. Uniform widening keeps angles, so an intact wall has exactly the gaps of its reference
 /// state; a gap counts once it is half as wide again as the widest of those, and its excess over that width
-/// times the row's mean radius times the row spacing is its area. Exact to about one spacing of width per row.
-/// Angles are sorted into bins that ranks merge by a bitwise or, so the result does not depend on them.
+/// times the row's mean radius times the row spacing is its area. Exact to about one spacing of width per
+/// row. Angles are sorted into bins that ranks merge by a bitwise or, so the result does not depend on them.
 class OpeningGauge {
  public:
   OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);

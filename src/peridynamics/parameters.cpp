@@ -10,8 +10,20 @@ namespace rhexis::peridynamics {
 
 ParameterList declare(Parameters& p) {
   return {
-      {"vessel.inner_radius", &p.inner_radius, "m", {}, "Radius of the lumen, r0.", "Table 2", Range::positive()},
-      {"vessel.outer_radius", &p.outer_radius, "m", {}, "Outer radius of the wall, r1.", "Table 2", Range::positive()},
+      {"vessel.inner_radius",
+       &p.inner_radius,
+       "m",
+       {},
+       "Radius of the lumen, r0.",
+       "Table 2",
+       Range::positive()},
+      {"vessel.outer_radius",
+       &p.outer_radius,
+       "m",
+       {},
+       "Outer radius of the wall, r1.",
+       "Table 2",
+       Range::positive()},
       {"vessel.length", &p.length, "m", {}, "Axial length of the vessel, L.", "Table 2", Range::positive()},
 
       {"material.density", &p.density, "kg/m3", "\"1.3 g/cm3\"", "Mass density of the wall.", "Table 2",
@@ -19,12 +31,24 @@ ParameterList declare(Parameters& p) {
       {"material.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"",
        "Young's modulus of the wall; Poisson's ratio is 1/4 in the bond-based law.", "Table 2, Eq. (4)",
        Range::positive()},
-      {"material.critical_stretch", &p.critical_stretch, "1", "0.25", "Stretch at which a bond breaks, s0.",
-       "Table 2, Eq. (5)", {.lower = 0, .upper = 10, .lower_open = true}},
+      {"material.critical_stretch",
+       &p.critical_stretch,
+       "1",
+       "0.25",
+       "Stretch at which a bond breaks, s0.",
+       "Table 2, Eq. (5)",
+       {.lower = 0, .upper = 10, .lower_open = true}},
 
-      {"discretisation.cross_section", &p.cross_section, "", "\"lattice\"",
-       "Arrangement of particles over the cross-section: the paper's cubic lattice clipped to the wall, or rings "
-       "that follow the wall.", "Sec. 3.2", {}, {"lattice", "polar"}},
+      {"discretisation.cross_section",
+       &p.cross_section,
+       "",
+       "\"lattice\"",
+       "Arrangement of particles over the cross-section: the paper's cubic lattice clipped to the wall, or "
+       "rings "
+       "that follow the wall.",
+       "Sec. 3.2",
+       {},
+       {"lattice", "polar"}},
       {"discretisation.spacing", &p.spacing, "m", "\"auto\"",
        "Distance between particles; \"auto\" takes it from discretisation.particles.", "Table 2; Sec. 3.3",
        Range::positive()},
@@ -32,52 +56,98 @@ ParameterList declare(Parameters& p) {
        "Number of particles N to aim at; sets the spacing (pi (r1^2 - r0^2) L / N)^(1/3).", "Sec. 3.3",
        Range::between(100, 4e9)},
       {"discretisation.horizon", &p.horizon, "m", "\"auto\"",
-       "Radius of a particle's family, delta; \"auto\" is horizon_ratio spacings.", "Table 2", Range::positive()},
-      {"discretisation.horizon_ratio", &p.horizon_ratio, "1", "3.5", "Horizon in spacings where horizon is \"auto\".",
-       "Sec. 3.3", Range::between(2, 8)},
+       "Radius of a particle's family, delta; \"auto\" is horizon_ratio spacings.", "Table 2",
+       Range::positive()},
+      {"discretisation.horizon_ratio", &p.horizon_ratio, "1", "3.5",
+       "Horizon in spacings where horizon is \"auto\".", "Sec. 3.3", Range::between(2, 8)},
       {"discretisation.lattice_shift", &p.lattice_shift, "1", "[0.5, 0.5]",
-       "Where the lattice falls: offset of its nodes from the axis in x and y, in spacings (0.5: the axis lies "
-       "between four columns; 0: on a column).", "", Range::between(0, 1)},
-      {"discretisation.bond_precision", &p.bond_precision, "", "\"single\"",
-       "Arithmetic of the bonds; positions and velocities are always double.", "", {}, {"single", "double"}},
+       "Where the lattice falls: offset of its nodes from the axis in x and y, in spacings (0.5: the axis "
+       "lies "
+       "between four columns; 0: on a column).",
+       "", Range::between(0, 1)},
+      {"discretisation.bond_precision",
+       &p.bond_precision,
+       "",
+       "\"single\"",
+       "Arithmetic of the bonds; positions and velocities are always double.",
+       "",
+       {},
+       {"single", "double"}},
 
-      {"boundary.ends", &p.ends, "", "\"clamped\"",
+      {"boundary.ends",
+       &p.ends,
+       "",
+       "\"clamped\"",
        "Both ends: free; clamped (held still); sliding (no axial motion, radial motion free); axial_periodic "
-       "(a piece of an endless vessel).", "", {}, {"free", "clamped", "sliding", "axial_periodic"}},
+       "(a piece of an endless vessel).",
+       "",
+       {},
+       {"free", "clamped", "sliding", "axial_periodic"}},
       {"boundary.end_length", &p.end_length, "m", "\"auto\"",
-       "Length held at each end where ends are clamped or sliding; \"auto\" is one horizon.", "", Range::positive()},
+       "Length held at each end where ends are clamped or sliding; \"auto\" is one horizon.", "",
+       Range::positive()},
 
-      {"load.pressure", &p.pressure, "Pa", "\"238 kPa\"", "Net pressure on the lumen, P_net, after the schedule.",
-       "Table 2, Eq. (7)", Range::not_negative()},
-      {"load.schedule", &p.schedule, "", "\"ramp\"",
-       "Course of the pressure: full at once; linear ramp; ramp as half a cosine; or load.table.", "", {},
+      {"load.pressure", &p.pressure, "Pa", "\"238 kPa\"",
+       "Net pressure on the lumen, P_net, after the schedule.", "Table 2, Eq. (7)", Range::not_negative()},
+      {"load.schedule",
+       &p.schedule,
+       "",
+       "\"ramp\"",
+       "Course of the pressure: full at once; linear ramp; ramp as half a cosine; or load.table.",
+       "",
+       {},
        {"step", "ramp", "smooth_ramp", "table"}},
       {"load.ramp_time", &p.ramp_time, "s", "\"auto\"", "Duration of a ramp; \"auto\" is time.end.", "",
        Range::positive()},
       {"load.table", &p.table, "s, Pa", "[]",
-       "Pressure by time, linear in between, constant outside: [[\"0 ms\", \"0 kPa\"], [\"2 ms\", \"200 kPa\"]].", "",
-       Range::not_negative()},
-      {"load.layer", &p.layer, "", "\"consistent\"",
+       "Pressure by time, linear in between, constant outside: [[\"0 ms\", \"0 kPa\"], [\"2 ms\", \"200 "
+       "kPa\"]].",
+       "", Range::not_negative()},
+      {"load.layer",
+       &p.layer,
+       "",
+       "\"consistent\"",
        "Body force of the pressure in the innermost layer of the wall: paper (P / thickness) or consistent "
-       "(scaled so that its resultant is exactly P 2 pi r0 L).", "Eq. (8)", {}, {"paper", "consistent"}},
+       "(scaled so that its resultant is exactly P 2 pi r0 L).",
+       "Eq. (8)",
+       {},
+       {"paper", "consistent"}},
       {"load.layer_thickness", &p.layer_thickness, "m", "\"auto\"",
-       "Thickness of the loaded layer, from r0 outwards; \"auto\" is one horizon.", "Eq. (8)", Range::positive()},
-      {"load.venting", &p.venting, "", "\"orifice\"",
-       "After rupture: none (the dead load goes on pushing fragments, as in the paper) or orifice (the pressure "
-       "falls as the wall opens: P / (1 + (A_open / A_supply)^2)).", "", {}, {"none", "orifice"}},
+       "Thickness of the loaded layer, from r0 outwards; \"auto\" is one horizon.", "Eq. (8)",
+       Range::positive()},
+      {"load.venting",
+       &p.venting,
+       "",
+       "\"orifice\"",
+       "After rupture: none (the dead load goes on pushing fragments, as in the paper) or orifice (the "
+       "pressure "
+       "falls as the wall opens: P / (1 + (A_open / A_supply)^2)).",
+       "",
+       {},
+       {"none", "orifice"}},
       {"load.supply_area", &p.supply_area, "m2", "\"auto\"",
        "Area through which blood is supplied to the ruptured vessel; \"auto\" is the lumen, pi r0^2.", "",
        Range::positive()},
-      {"load.discharge_coefficient", &p.discharge_coefficient, "1", "0.62",
-       "Of the opening, in the leak Cd A_open sqrt(2 P / rho_blood).", "orifice law",
+      {"load.discharge_coefficient",
+       &p.discharge_coefficient,
+       "1",
+       "0.62",
+       "Of the opening, in the leak Cd A_open sqrt(2 P / rho_blood).",
+       "orifice law",
        {.lower = 0, .upper = 1, .lower_open = true}},
       {"load.blood_density", &p.blood_density, "kg/m3", "\"1060 kg/m3\"", "Density of blood in the leak.", "",
        Range::positive()},
 
       {"time.end", &p.end_time, "s", {}, "Simulated time.", "Table 2", Range::positive()},
       {"time.step", &p.time_step, "s", "\"auto\"",
-       "Time step; \"auto\" is step_fraction of the stable one. The paper uses 500 ns.", "Table 2", Range::positive()},
-      {"time.step_fraction", &p.step_fraction, "1", "0.8", "Share of the stable time step that \"auto\" takes.", "",
+       "Time step; \"auto\" is step_fraction of the stable one. The paper uses 500 ns.", "Table 2",
+       Range::positive()},
+      {"time.step_fraction",
+       &p.step_fraction,
+       "1",
+       "0.8",
+       "Share of the stable time step that \"auto\" takes.",
+       "",
        {.lower = 0, .upper = 1, .lower_open = true}},
   };
 }
@@ -93,8 +163,8 @@ namespace {
 
 /// Spacing that cuts the wall's volume into `particles` cubes, Sec. 3.3.
 double spacing_for(const Parameters& p, double particles) {
-  const double volume = std::numbers::pi *
-                        (p.outer_radius * p.outer_radius - p.inner_radius * p.inner_radius) * p.length;
+  const double volume =
+      std::numbers::pi * (p.outer_radius * p.outer_radius - p.inner_radius * p.inner_radius) * p.length;
   return std::cbrt(volume / particles);
 }
 
@@ -111,22 +181,25 @@ void resolve_spacing(Parameters& p) {
   if (!p.horizon) p.horizon = p.horizon_ratio * *p.spacing;
   const double ratio = *p.horizon / *p.spacing;
   if (ratio < 2) {
-    throw InputError("the horizon is " + text(ratio) + " spacings; at least 2 are needed (3 to 4 are usual), here " +
+    throw InputError("the horizon is " + text(ratio) +
+                         " spacings; at least 2 are needed (3 to 4 are usual), here " +
                          quantity(2 * *p.spacing, "m"),
                      "discretisation.horizon");
   }
   if (ratio > 8) {
-    throw InputError("the horizon is " + text(ratio) + " spacings; at most 8 are allowed (3 to 4 are usual), here " +
+    throw InputError("the horizon is " + text(ratio) +
+                         " spacings; at most 8 are allowed (3 to 4 are usual), here " +
                          quantity(8 * *p.spacing, "m"),
                      "discretisation.horizon");
   }
   const double wall = p.outer_radius - p.inner_radius;
   if (wall < *p.spacing) {
-    throw InputError("the wall (" + quantity(wall, "m") + ") is thinner than one spacing; take at most a third of it",
-                     "discretisation.spacing");
+    throw InputError(
+        "the wall (" + quantity(wall, "m") + ") is thinner than one spacing; take at most a third of it",
+        "discretisation.spacing");
   }
-  const double volume = std::numbers::pi *
-                        (p.outer_radius * p.outer_radius - p.inner_radius * p.inner_radius) * p.length;
+  const double volume =
+      std::numbers::pi * (p.outer_radius * p.outer_radius - p.inner_radius * p.inner_radius) * p.length;
   const double count = volume / (*p.spacing * *p.spacing * *p.spacing);
   if (count > 4e9) {
     throw InputError("the wall would hold " + text(count) + " particles; at most 4e9 are possible",
@@ -157,12 +230,14 @@ void resolve_ends(Parameters& p) {
   const EndCondition ends = end_condition(p);
   if (ends == EndCondition::axial_periodic) {
     if (p.length < 2 * *p.horizon + *p.spacing) {
-      throw InputError("a periodic piece must be longer than two horizons, here " + quantity(2 * *p.horizon, "m"),
-                       "vessel.length");
+      throw InputError(
+          "a periodic piece must be longer than two horizons, here " + quantity(2 * *p.horizon, "m"),
+          "vessel.length");
     }
   } else if (ends != EndCondition::free && 2 * *p.end_length >= p.length) {
-    throw InputError("the held ends (" + quantity(*p.end_length, "m") + " each) leave nothing of the vessel free",
-                     "boundary.end_length");
+    throw InputError(
+        "the held ends (" + quantity(*p.end_length, "m") + " each) leave nothing of the vessel free",
+        "boundary.end_length");
   }
 }
 
@@ -170,7 +245,8 @@ void resolve_ends(Parameters& p) {
 
 std::vector<std::string> resolve(Parameters& p) {
   if (!(p.outer_radius > p.inner_radius)) {
-    throw InputError("the outer radius must be above the inner one, vessel.inner_radius = " + quantity(p.inner_radius, "m"),
+    throw InputError("the outer radius must be above the inner one, vessel.inner_radius = " +
+                         quantity(p.inner_radius, "m"),
                      "vessel.outer_radius");
   }
   if (p.lattice_shift.size() != 2) {

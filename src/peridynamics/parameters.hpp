@@ -16,35 +16,35 @@ enum class EndCondition { free, clamped, axial_periodic, sliding };
 struct Parameters {
   double inner_radius = 0, outer_radius = 0, length = 0;  ///< m
 
-  double density = 0;          ///< kg/m3
-  double young_modulus = 0;    ///< Pa; Poisson's ratio is 1/4 in the bond-based law
+  double density = 0;        ///< kg/m3
+  double young_modulus = 0;  ///< Pa; Poisson's ratio is 1/4 in the bond-based law
   double critical_stretch = 0;
 
-  std::string cross_section;            ///< "lattice" | "polar"
-  std::optional<double> spacing;        ///< m
+  std::string cross_section;      ///< "lattice" | "polar"
+  std::optional<double> spacing;  ///< m
   std::optional<std::int64_t> particles;
-  std::optional<double> horizon;        ///< m
-  double horizon_ratio = 0;             ///< horizon / spacing where `horizon` is "auto"
-  std::vector<double> lattice_shift;    ///< of the nearest column from the axis, in spacings, two numbers
-  std::string bond_precision;           ///< "single" | "double"
+  std::optional<double> horizon;      ///< m
+  double horizon_ratio = 0;           ///< horizon / spacing where `horizon` is "auto"
+  std::vector<double> lattice_shift;  ///< of the nearest column from the axis, in spacings, two numbers
+  std::string bond_precision;         ///< "single" | "double"
 
-  std::string ends;                     ///< see EndCondition
-  std::optional<double> end_length;     ///< m held at each end
+  std::string ends;                  ///< see EndCondition
+  std::optional<double> end_length;  ///< m held at each end
 
-  double pressure = 0;                  ///< Pa
-  std::string schedule;                 ///< "step" | "ramp" | "smooth_ramp" | "table"
-  std::optional<double> ramp_time;      ///< s
-  std::vector<CurvePoint> table;        ///< (s, Pa)
-  std::string layer;                    ///< "paper" | "consistent"
+  double pressure = 0;                    ///< Pa
+  std::string schedule;                   ///< "step" | "ramp" | "smooth_ramp" | "table"
+  std::optional<double> ramp_time;        ///< s
+  std::vector<CurvePoint> table;          ///< (s, Pa)
+  std::string layer;                      ///< "paper" | "consistent"
   std::optional<double> layer_thickness;  ///< m
-  std::string venting;                  ///< "none" | "orifice"
-  std::optional<double> supply_area;    ///< m2
+  std::string venting;                    ///< "none" | "orifice"
+  std::optional<double> supply_area;      ///< m2
   double discharge_coefficient = 0;
-  double blood_density = 0;             ///< kg/m3
+  double blood_density = 0;  ///< kg/m3
 
-  std::optional<double> time_step;      ///< s
+  std::optional<double> time_step;  ///< s
   double step_fraction = 0;
-  double end_time = 0;                  ///< s
+  double end_time = 0;  ///< s
 };
 
 /// The keys of sections vessel, material, discretisation, boundary, load and time, bound to `p`.

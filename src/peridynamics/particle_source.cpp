@@ -6,8 +6,11 @@ namespace rhexis::peridynamics {
 namespace {
 
 constexpr FieldInfo known_fields[] = {
-    {"displacement", "m", 3},          {"velocity", "m s-1", 3}, {"force_density", "N m-3", 3},
-    {"strain_energy_density", "J m-3", 1}, {"damage", "1", 1},
+    {"displacement", "m", 3},
+    {"velocity", "m s-1", 3},
+    {"force_density", "N m-3", 3},
+    {"strain_energy_density", "J m-3", 1},
+    {"damage", "1", 1},
 };
 
 template <class Components>
@@ -21,7 +24,9 @@ FieldView scalar_view(const FieldInfo& info, const std::vector<double>& values) 
 
 }  // namespace
 
-std::span<const FieldInfo> ParticleSource::all_fields() { return known_fields; }
+std::span<const FieldInfo> ParticleSource::all_fields() {
+  return known_fields;
+}
 
 void ParticleSource::moment(long step, double time_s, const Observation& observation,
                             std::vector<Annotation> annotations) {

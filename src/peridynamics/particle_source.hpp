@@ -9,8 +9,8 @@
 namespace rhexis::peridynamics {
 
 /// Fields: displacement, velocity, force_density (vectors), strain_energy_density, damage (scalars).
-/// Displacement, velocity, force density, energy density and damage are the solver's own memory; only positions
-/// are computed here.
+/// Displacement, velocity, force density, energy density and damage are the solver's own memory; only
+/// positions are computed here.
 class ParticleSource final : public PointSource {
  public:
   explicit ParticleSource(Body& body) : body_(&body) {}

@@ -24,8 +24,8 @@ PressureLayer make_pressure_layer(const Parameters& p, const Lattice& lattice) {
     throw InputError("no particle lies in the loaded layer; make it at least one spacing thick",
                      "load.layer_thickness");
   }
-  const double magnitude = p.layer == "paper" ? 1 / *p.layer_thickness
-                                              : 2 * std::numbers::pi * p.inner_radius / loaded_area;
+  const double magnitude =
+      p.layer == "paper" ? 1 / *p.layer_thickness : 2 * std::numbers::pi * p.inner_radius / loaded_area;
   for (std::size_t c = 0; c < s.size(); ++c) {
     layer.bx[c] *= magnitude;
     layer.by[c] *= magnitude;

@@ -10,7 +10,8 @@
 
 namespace rhexis::peridynamics {
 
-/// Force density per unit of pressure on each column's particles: b = P (bx, by), 1/m; zero outside the layer.
+/// Force density per unit of pressure on each column's particles: b = P (bx, by), 1/m; zero outside the
+/// layer.
 struct PressureLayer {
   std::vector<double> bx, by;
 

@@ -1,7 +1,7 @@
 // Static expansion under a small pressure against Lame's plane-strain solution with nu = 1/4,
 //   u_r = (1 + nu)/E P r0^2 / (r1^2 - r0^2) ((1 - 2 nu) r + r1^2 / r).
-// The paper's discretisation (a clipped lattice of 100 um, no surface correction) is far from it; the bounds below
-// are the errors stated in the README, so that a change of either is noticed.
+// The paper's discretisation (a clipped lattice of 100 um, no surface correction) is far from it; the bounds
+// below are the errors stated in the README, so that a change of either is noticed.
 #include <gtest/gtest.h>
 
 #include "peridynamics/pressure_layer.hpp"
@@ -33,33 +33,32 @@ TEST_P(Lame, PlaneStrainErrorIsTheStatedOne) {
   p.cross_section = GetParam().cross_section;
   p.layer = GetParam().layer;
   p.spacing = GetParam().spacing;
-  p.bond_precision = "double";
   p.ends = "axial_periodic";
   BodySetup setup = test::setup_of(p, 1e-7);
   setup.time_step = 0.9 * test::stable_step_of(setup);
   const auto body = make_body(BodySetup(setup), test::self());
-  const double pressure = 10;
+  const double pressure = 500;  // strains of 5e-4: small
   // Dynamic relaxation: velocities are dropped whenever the kinetic energy has passed a peak.
   const auto still = test::sample(*body, test::nothing);
   double before = 0;
-  bool at_rest = false;
-  for (int i = 0; i < 4000 && !at_rest; ++i) {
+  for (int i = 0; i < 2500; ++i) {
     body->advance(pressure, pressure);
-    if (i % 10 != 0) continue;
+    if (i % 5 != 0) continue;
     body->observe(pressure);
-    const Totals t = body->totals();
-    if (t.kinetic < before) {
+    const double kinetic = body->totals().kinetic;
+    if (kinetic < before) {
       const auto u = body->displacement();
-      body->set_state({std::vector<double>(u[0].begin(), u[0].end()), std::vector<double>(u[1].begin(), u[1].end()),
-                       std::vector<double>(u[2].begin(), u[2].end())},
-                      still);
-      at_rest = before < 1e-6 * t.strain;  // no peak worth the name since the last drop
+      body->set_state(
+          {std::vector<double>(u[0].begin(), u[0].end()), std::vector<double>(u[1].begin(), u[1].end()),
+           std::vector<double>(u[2].begin(), u[2].end())},
+          still);
       before = 0;
     } else {
-      before = t.kinetic;
+      before = kinetic;
     }
   }
-  ASSERT_TRUE(at_rest);
+  body->observe(pressure);
+  ASSERT_LT(body->totals().kinetic, 1e-5 * body->totals().strain) << "not at rest";
 
   double error = 0, size = 0;
   const PointLayout& l = body->layout();

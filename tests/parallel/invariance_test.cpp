@@ -1,5 +1,6 @@
-// The same broken bonds and bit-identical positions, energies and openings for any number of ranks and threads.
-// Each rank computes the reference by itself, on one thread; then all of them compute together, on two.
+// The same broken bonds and bit-identical positions, energies and openings for any number of ranks and
+// threads. Each rank computes the reference by itself, on one thread; then all of them compute together, on
+// two.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -17,7 +18,9 @@ struct Case {
   double length;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
 
 class Invariance : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Vessels, Invariance,
@@ -79,8 +82,7 @@ TEST_P(Invariance, BitIdentical) {
   for (std::int64_t c = 0; c < mine.column_count; ++c) {
     for (std::int64_t r = 0; r < mine.row_count; ++r) {
       const auto here = static_cast<std::size_t>(c * mine.row_count + r);
-      const auto there =
-          static_cast<std::size_t>((mine.first_column + c) * whole.rows + mine.first_row + r);
+      const auto there = static_cast<std::size_t>((mine.first_column + c) * whole.rows + mine.first_row + r);
       for (int k = 0; k < 3; ++k) {
         ASSERT_EQ(together.body->displacement()[k][here], alone.body->displacement()[k][there]);
         ASSERT_EQ(together.seen.velocity[k][here], alone.seen.velocity[k][there]);

@@ -12,7 +12,9 @@
 
 namespace rhexis::test {
 
-inline parallel::Communicator self() { return parallel::Communicator(MPI_COMM_SELF); }
+inline parallel::Communicator self() {
+  return parallel::Communicator(MPI_COMM_SELF);
+}
 
 /// The paper's wall (Table 2), `length` m long, resolved.
 inline peridynamics::Parameters paper_vessel(double length = 2e-3) {
@@ -62,6 +64,8 @@ std::array<std::vector<double>, 3> sample(const peridynamics::Body& body, const 
   return values;
 }
 
-inline std::array<double, 3> nothing(const std::array<double, 3>&) { return {0, 0, 0}; }
+inline std::array<double, 3> nothing(const std::array<double, 3>&) {
+  return {0, 0, 0};
+}
 
 }  // namespace rhexis::test

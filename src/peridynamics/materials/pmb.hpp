@@ -1,7 +1,7 @@
 /// Prototype microelastic brittle (PMB) law, Sec. 3.1, Eqs. (2)-(5); Silling & Askari 2005.
 ///
-/// With t = (|xi + eta|^2 - |xi|^2) / |xi|^2 = (1 + s)^2 - 1, computed by the caller without cancellation, the
-/// pairwise force density of Eq. (2) is
+/// With t = (|xi + eta|^2 - |xi|^2) / |xi|^2 = (1 + s)^2 - 1, computed by the caller without cancellation,
+/// the pairwise force density of Eq. (2) is
 ///
 ///   f = c s (xi + eta)/|xi + eta| = (c / |xi|) g(t) (xi + eta),   g(t) = s / (1 + s) = 1 - 1/sqrt(1 + t),
 ///
@@ -24,9 +24,7 @@ struct Pmb {
   }
 
   /// Eq. (5) in terms of t.
-  static double breaking_t(double critical_stretch) {
-    return critical_stretch * (2 + critical_stretch);
-  }
+  static double breaking_t(double critical_stretch) { return critical_stretch * (2 + critical_stretch); }
 
   /// g(t), lane by lane. In single precision the root is approximate and then corrected to third order by its
   /// own residual, in a form that keeps the accuracy of small t: g is within 1e-6 |g| + 5e-11.

@@ -1,4 +1,4 @@
-"""Reads a series of write_sample_series (argv[1]) with ParaView's three XDMF readers: steps, cells, values."""
+"""ParaView's three XDMF readers read a series of write_sample_series (argv[1]): steps, cells, values."""
 
 import os
 import subprocess

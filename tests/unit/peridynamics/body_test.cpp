@@ -38,7 +38,8 @@ TEST_P(Precision, PairBreaksAtTheCriticalStretchAtBothEndsAtOnce) {
   const double margin = doubles() ? 1e-14 : 2e-7;
   for (double away : {-margin, margin}) {
     const auto body = make_body(pair(doubles(), 1e-3), test::self());
-    body->set_state(State{{{0.0, 0.25 + away}, {0.0, 0.0}, {0.0, 0.0}}}, State{{{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}});
+    body->set_state(State{{{0.0, 0.25 + away}, {0.0, 0.0}, {0.0, 0.0}}},
+                    State{{{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}});
     const Observation& seen = body->observe(0);
     const bool breaks = away > 0;
     EXPECT_EQ(seen.damage[0], breaks ? 1 : 0);
@@ -97,9 +98,14 @@ TEST_P(Precision, RigidMotionsMakeNoForce) {
   };
   // Round-off of coordinates of some spacings, in units of a one-per-cent stretch.
   const double tolerance = doubles() ? 1e-10 : 1e-2;
-  EXPECT_LT(largest_force([&](auto) { return std::array{0.37 * spacing, -0.21 * spacing, 0.11 * spacing}; }),
+  EXPECT_LT(largest_force([&](auto) {
+              return std::array{0.37 * spacing, -0.21 * spacing, 0.11 * spacing};
+            }),
             doubles() ? 1e-10 : 1e-3);
-  EXPECT_LT(largest_force([](auto) { return std::array{1.0, -2.0, 3.0}; }), doubles() ? 1e-6 : 1e-3)
+  EXPECT_LT(largest_force([](auto) {
+              return std::array{1.0, -2.0, 3.0};
+            }),
+            doubles() ? 1e-6 : 1e-3)
       << "metres away: only the rounding of the double positions is left";
   EXPECT_LT(largest_force(rotation(0.3, 0.2)), tolerance);
   EXPECT_LT(largest_force(rotation(2.5, 1.5)), tolerance);
@@ -117,7 +123,8 @@ TEST_P(Precision, MomentumIsConserved) {
   const double h = setup.lattice.spacing;
   body->set_state(test::sample(*body,
                                [&](auto x) {
-                                 return std::array{0.1 * h * std::sin(9e4 * x[1]), 0.1 * h * std::sin(5e4 * x[2]),
+                                 return std::array{0.1 * h * std::sin(9e4 * x[1]),
+                                                   0.1 * h * std::sin(5e4 * x[2]),
                                                    0.1 * h * std::sin(7e4 * x[0])};
                                }),
                   test::sample(*body, test::nothing));
@@ -133,7 +140,8 @@ TEST_P(Precision, MomentumIsConserved) {
       const auto x = body->reference_position(c, r);
       for (std::size_t k = 0; k < 3; ++k) sum[k] += volume * seen.force_density[k][i];
       size += volume * std::abs(seen.force_density[0][i]);
-      moment += volume * ((x[0] + u[0][i]) * seen.force_density[1][i] - (x[1] + u[1][i]) * seen.force_density[0][i]);
+      moment += volume *
+                ((x[0] + u[0][i]) * seen.force_density[1][i] - (x[1] + u[1][i]) * seen.force_density[0][i]);
     }
   }
   const double tolerance = (doubles() ? 1e-13 : 1e-6) * size;
@@ -148,7 +156,10 @@ TEST_P(Precision, EnergyIsConservedWhileItVibrates) {
   BodySetup setup = test::setup_of(p, 1e-7);
   setup.time_step = 0.05 * test::stable_step_of(setup);
   const auto body = make_body(std::move(setup), test::self());
-  body->set_state(test::sample(*body, [](auto x) { return std::array{0.01 * x[0], -0.01 * x[1], 0.0}; }),
+  body->set_state(test::sample(*body,
+                               [](auto x) {
+                                 return std::array{0.01 * x[0], -0.01 * x[1], 0.0};
+                               }),
                   test::sample(*body, test::nothing));
   body->observe(0);
   const double start = body->totals().strain;
@@ -174,15 +185,18 @@ TEST_P(Precision, WorkOfThePressureBecomesEnergy) {
 }
 
 TEST_P(Precision, UniformStrainHasTheContinuumEnergy) {
-  // Bulk particles under a volume strain e store 9 K e^2 / 2 (Silling & Askari); the sum over a family of 178 is
-  // close to the integral.
+  // Bulk particles under a volume strain e store 9 K e^2 / 2 (Silling & Askari); the sum over a family of 178
+  // is close to the integral.
   Parameters p = test::paper_vessel(2e-3);
   p.inner_radius = 1e-6;
   p.bond_precision = doubles() ? "double" : "single";
   p.ends = "free";
   const auto body = make_body(test::setup_of(p, 1e-7), test::self());
   const double e = 1e-3;
-  body->set_state(test::sample(*body, [&](auto x) { return std::array{e * x[0], e * x[1], e * x[2]}; }),
+  body->set_state(test::sample(*body,
+                               [&](auto x) {
+                                 return std::array{e * x[0], e * x[1], e * x[2]};
+                               }),
                   test::sample(*body, test::nothing));
   const Observation& seen = body->observe(0);
   const double bulk = p.young_modulus / (3 * (1 - 2 * 0.25));
@@ -198,7 +212,10 @@ TEST_P(Precision, HalvedBodyHasTheDamageOfItsCut) {
   p.ends = "free";
   const BodySetup setup = test::setup_of(p, 1e-7);
   const auto body = make_body(BodySetup(setup), test::self());
-  body->set_state(test::sample(*body, [](auto x) { return std::array{0.0, 0.0, x[2] > 1e-3 ? 1e-3 : 0.0}; }),
+  body->set_state(test::sample(*body,
+                               [](auto x) {
+                                 return std::array{0.0, 0.0, x[2] > 1e-3 ? 1e-3 : 0.0};
+                               }),
                   test::sample(*body, test::nothing));
   const Observation& seen = body->observe(0);
   const PointLayout& l = body->layout();

@@ -72,10 +72,11 @@ TEST(BondFamilies, EveryBondHasItsExactOpposite) {
     for (std::size_t i = 0; i < lattice.section.size(); ++i) {
       for (std::int64_t b = f.first[i]; b < f.first[i + 1]; ++b) {
         const Bond& bond = f.bonds[b];
-        const auto opposite = std::find_if(
-            f.bonds.begin() + f.first[bond.other], f.bonds.begin() + f.first[bond.other + 1], [&](const Bond& other) {
-              return other.other == static_cast<std::int32_t>(i) && other.row_offset == -bond.row_offset;
-            });
+        const auto opposite = std::find_if(f.bonds.begin() + f.first[bond.other],
+                                           f.bonds.begin() + f.first[bond.other + 1], [&](const Bond& other) {
+                                             return other.other == static_cast<std::int32_t>(i) &&
+                                                    other.row_offset == -bond.row_offset;
+                                           });
         ASSERT_NE(opposite, f.bonds.begin() + f.first[bond.other + 1]);
         for (int k = 0; k < 3; ++k) ASSERT_EQ(opposite->xi[k], -bond.xi[k]);
         ASSERT_EQ(opposite->length, bond.length);
@@ -123,13 +124,25 @@ TEST(Parameters, InconsistentValuesNameTheirKey) {
   EXPECT_EQ(key_of([](Parameters& p) { p.horizon = 9e-4; }), "discretisation.horizon");
   EXPECT_EQ(key_of([](Parameters& p) { p.particles = 1000; }), "discretisation.particles");
   EXPECT_EQ(key_of([](Parameters& p) { p.spacing.reset(); }), "discretisation.spacing");
-  EXPECT_EQ(key_of([](Parameters& p) { p.spacing = 6e-4; p.horizon = 2e-3; }), "discretisation.spacing");
+  EXPECT_EQ(key_of([](Parameters& p) {
+              p.spacing = 6e-4;
+              p.horizon = 2e-3;
+            }),
+            "discretisation.spacing");
   EXPECT_EQ(key_of([](Parameters& p) { p.lattice_shift = {0.5}; }), "discretisation.lattice_shift");
   EXPECT_EQ(key_of([](Parameters& p) { p.schedule = "table"; }), "load.table");
   EXPECT_EQ(key_of([](Parameters& p) { p.table = {{0, 0}, {1, 1}}; }), "load.table");
-  EXPECT_EQ(key_of([](Parameters& p) { p.schedule = "table"; p.table = {{0, 0}, {0, 1}}; }), "load.table");
+  EXPECT_EQ(key_of([](Parameters& p) {
+              p.schedule = "table";
+              p.table = {{0, 0}, {0, 1}};
+            }),
+            "load.table");
   EXPECT_EQ(key_of([](Parameters& p) { p.end_length = 1e-3; }), "boundary.end_length");
-  EXPECT_EQ(key_of([](Parameters& p) { p.ends = "axial_periodic"; p.length = 6e-4; }), "vessel.length");
+  EXPECT_EQ(key_of([](Parameters& p) {
+              p.ends = "axial_periodic";
+              p.length = 6e-4;
+            }),
+            "vessel.length");
 }
 
 TEST(Parameters, ThinWallIsWarnedOf) {

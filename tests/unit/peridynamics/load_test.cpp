@@ -36,7 +36,8 @@ TEST(PressureLayer, ConsistentResultantIsExact) {
 }
 
 TEST(PressureLayer, PaperResultantIsTooLarge) {
-  // Inside the wall Eq. (8) loads the area between r0 and r0 + delta: (1 + delta / (2 r0)) of the lumen's surface.
+  // Inside the wall Eq. (8) loads the area between r0 and r0 + delta: (1 + delta / (2 r0)) of the lumen's
+  // surface.
   Parameters p = test::paper_vessel();
   p.cross_section = "polar";
   p.spacing = 0.25e-4;  // fine rings, whose areas fill the layer exactly
@@ -98,7 +99,10 @@ TEST_P(Opening, IntactAndUniformlyWidenedWallsAreClosed) {
   const auto body = make_body(std::move(setup), test::self());
   const OpeningGauge gauge(lattice, *body, test::self());
   EXPECT_EQ(gauge.area(), 0);
-  body->set_state(test::sample(*body, [](auto x) { return std::array{0.3 * x[0], 0.3 * x[1], 0.0}; }),
+  body->set_state(test::sample(*body,
+                               [](auto x) {
+                                 return std::array{0.3 * x[0], 0.3 * x[1], 0.0};
+                               }),
                   test::sample(*body, test::nothing));
   EXPECT_EQ(gauge.area(), 0);
 }

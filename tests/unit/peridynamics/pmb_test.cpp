@@ -30,19 +30,22 @@ Real t_of(long double s) {
   return static_cast<Real>(s * (2 + s));
 }
 
-const std::vector<long double> stretches = {-0.9L, -0.5L, -0.1L, -1e-3L, -1e-5L, 1e-5L, 1e-3L, 0.05L, 0.1L, 0.25L, 2.0L};
+const std::vector<long double> stretches = {-0.9L, -0.5L, -0.1L, -1e-3L, -1e-5L, 1e-5L,
+                                            1e-3L, 0.05L, 0.1L,  0.25L,  2.0L};
 
 TEST(Pmb, BondConstantMatchesBulkModulus) {
   const double young = 3.5e6, horizon = 350e-6;
   const double bulk = young / (3 * (1 - 2 * 0.25));
-  EXPECT_NEAR(Pmb::bond_constant(young, horizon) / (18 * bulk / (std::numbers::pi * std::pow(horizon, 4))), 1, 1e-14);
+  EXPECT_NEAR(Pmb::bond_constant(young, horizon) / (18 * bulk / (std::numbers::pi * std::pow(horizon, 4))), 1,
+              1e-14);
 }
 
 TEST(Pmb, ForceFactorIsStretchOverOnePlusStretch) {
   for (long double s : stretches) {
     const auto t64 = t_of<double>(s);
     const long double exact64 = 1 - 1 / std::sqrt(1 + static_cast<long double>(t64));
-    EXPECT_NEAR(force_factor(t64) / static_cast<double>(exact64), 1, 4e-15) << "s = " << static_cast<double>(s);
+    EXPECT_NEAR(force_factor(t64) / static_cast<double>(exact64), 1, 4e-15)
+        << "s = " << static_cast<double>(s);
     // Single precision: as the header promises.
     const auto t32 = t_of<float>(s);
     const long double exact32 = 1 - 1 / std::sqrt(1 + static_cast<long double>(t32));
