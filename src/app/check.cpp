@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "app/console.hpp"
+#include "app/stopwatch.hpp"
 #include "core/format.hpp"
 #include "peridynamics/body.hpp"
 #include "peridynamics/bond_kernel.hpp"
@@ -27,9 +27,9 @@ double seconds_per_step(const Configuration& c, const Lattice& lattice, const Bo
   const auto body =
       peridynamics::make_body(peridynamics::make_setup(parameters, piece, families, c.time_step), comm);
   body->advance(0, 0);  // warms caches and pages
-  const auto start = std::chrono::steady_clock::now();
+  const double start = seconds_now();
   for (int i = 0; i < timed_steps; ++i) body->advance(0, 0);
-  const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double elapsed = seconds_now() - start;
   return comm.all_reduce(elapsed, parallel::Reduce::max) / timed_steps * static_cast<double>(lattice.rows) /
          static_cast<double>(piece.rows);
 }

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "app/stopwatch.hpp"
+
 namespace rhexis::app {
 
 std::string grouped(long long count) {
@@ -54,23 +56,22 @@ void Console::warning(const std::string& text) {
 }
 
 void Console::progress(long step, long steps, const std::string& state) {
-  using std::chrono::steady_clock;
   if (!speaks_) return;
-  const auto now = steady_clock::now();
+  const double now = seconds_now();
   if (first_step_ < 0) {
     first_step_ = step;
     start_ = last_drawn_ = now;
     last_tenth_ = step * 10 / steps;
     return;
   }
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double elapsed = now - start_;
   const double rate = static_cast<double>(step - first_step_) / elapsed;
   const double left = static_cast<double>(steps - step) / rate;
   const auto text = [&] {
     return fmt::format("step {}/{}  {}  {:.0f} steps/s, {} left", step, steps, state, rate, duration(left));
   };
   if (terminal_) {
-    if (now - last_drawn_ < std::chrono::milliseconds(200) && step < steps) return;
+    if (now - last_drawn_ < 0.2 && step < steps) return;
     last_drawn_ = now;
     constexpr long width = 24;
     const long full = width * step / steps;

@@ -1,7 +1,6 @@
 /// What a run says at the terminal: header, progress, summary. Only the root rank speaks.
 #pragma once
 
-#include <chrono>
 #include <string>
 
 namespace rhexis::app {
@@ -32,7 +31,7 @@ class Console {
   bool speaks_, terminal_;
   bool bar_shown_ = false;
   long first_step_ = -1, last_tenth_ = -1;
-  std::chrono::steady_clock::time_point start_{}, last_drawn_{};
+  double start_ = 0, last_drawn_ = 0;
 };
 
 }  // namespace rhexis::app

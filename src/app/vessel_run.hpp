@@ -40,6 +40,7 @@ class VesselRun {
     double solve = 0, output = 0, insitu = 0;  ///< s
   };
 
+  void note_failure(const std::string& reason);
   void build();
   void open_results();
   void start_insitu();

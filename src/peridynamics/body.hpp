@@ -23,7 +23,8 @@ namespace rhexis::peridynamics {
 struct StepEvents {
   std::int64_t broken = 0;  ///< directed bonds broken by the forces' evaluation at t_n
   bool damaged = false;     ///< a particle's damage has reached `rupture_damage`
-  bool unstable = false;    ///< a particle moved more than a spacing in one step, or is not a number
+  bool unstable =
+      false;  ///< a particle is faster than the load can make it (see ColumnBody), or not a number
 };
 
 /// Damage from which a particle counts as ruptured (run.json: rupture_onset_s, rupture_length_m).
@@ -89,7 +90,8 @@ class Body {
     std::array<std::vector<double>, 3> displacement, leapfrog_velocity;
     std::vector<std::uint16_t> words;
     bool first_kick_pending = false;
-    double external_work = 0;
+    double external_work = 0;  ///< J
+    double load_speed = 0;     ///< m/s, see ColumnBody
     std::array<double, 3> frame{};
   };
   virtual BondWordLayout bond_word_layout() const = 0;

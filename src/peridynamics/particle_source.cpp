@@ -37,21 +37,32 @@ void ParticleSource::moment(long step, double time_s, const Observation& observa
   positions_valid_ = false;
 }
 
-FieldView ParticleSource::positions() {
-  if (!positions_valid_) {
-    const PointLayout& l = layout();
-    const auto u = body_->displacement();
-    for (int k = 0; k < 3; ++k) positions_[k].resize(static_cast<std::size_t>(l.local_count()));
-    std::size_t i = 0;
-    for (std::int64_t c = 0; c < l.column_count; ++c) {
-      for (std::int64_t r = 0; r < l.row_count; ++r, ++i) {
-        const auto x = body_->reference_position(c, r);
-        for (int k = 0; k < 3; ++k) positions_[k][i] = x[k] + u[k][i];
-      }
+/// Reference positions plus u(component, particle).
+template <class Displacement>
+FieldView ParticleSource::fill_positions(std::string_view name, const Displacement& u) {
+  const PointLayout& l = layout();
+  for (auto& component : positions_) component.resize(static_cast<std::size_t>(l.local_count()));
+  std::size_t i = 0;
+  for (std::int64_t c = 0; c < l.column_count; ++c) {
+    for (std::int64_t r = 0; r < l.row_count; ++r, ++i) {
+      const auto x = body_->reference_position(c, r);
+      for (std::size_t k = 0; k < 3; ++k) positions_[k][i] = x[k] + u(k, i);
     }
-    positions_valid_ = true;
   }
-  return vector_view({"position", "m", 3}, positions_);
+  return vector_view({name, "m", 3}, positions_);
+}
+
+FieldView ParticleSource::positions() {
+  const FieldInfo info{"position", "m", 3};
+  if (positions_valid_) return vector_view(info, positions_);
+  positions_valid_ = true;
+  const auto u = body_->displacement();
+  return fill_positions(info.name, [&](std::size_t k, std::size_t i) { return u[k][i]; });
+}
+
+FieldView ParticleSource::reference_positions() {
+  positions_valid_ = false;
+  return fill_positions("reference_position", [](std::size_t, std::size_t) { return 0.0; });
 }
 
 FieldView ParticleSource::field(std::string_view name) {

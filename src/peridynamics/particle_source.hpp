@@ -23,6 +23,8 @@ class ParticleSource final : public PointSource {
   const PointLayout& layout() const override { return body_->layout(); }
   std::span<const FieldInfo> fields() const override { return all_fields(); }
   FieldView positions() override;
+  /// Of the body at rest; valid until `positions` or the next moment.
+  FieldView reference_positions();
   FieldView field(std::string_view name) override;
   std::vector<Annotation> annotations() const override { return annotations_; }
 
@@ -36,6 +38,9 @@ class ParticleSource final : public PointSource {
   std::vector<Annotation> annotations_;
   std::array<std::vector<double>, 3> positions_;
   bool positions_valid_ = false;
+
+  template <class Displacement>
+  FieldView fill_positions(std::string_view name, const Displacement& u);
 };
 
 }  // namespace rhexis::peridynamics

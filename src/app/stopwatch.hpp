@@ -1,0 +1,26 @@
+/// Where the time goes.
+#pragma once
+
+#include <chrono>
+
+namespace rhexis::app {
+
+/// Of a clock that only goes forward, s.
+inline double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Adds the time that passes while it lives.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(seconds_now()) {}
+  ~Stopwatch() { total_ += seconds_now() - start_; }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& total_;
+  double start_;
+};
+
+}  // namespace rhexis::app

@@ -1,0 +1,194 @@
+/// The one implementation of Body: what stands in memory and how it is found. Its work is in
+/// column_body_step.hpp (a step in time), column_body_observe.hpp (fields and totals) and
+/// column_body_state.hpp (bonds, state, restart); body.cpp includes all of them.
+#pragma once
+
+#include <hwy/aligned_allocator.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "parallel/exact_sum.hpp"
+#include "parallel/partition.hpp"
+#include "parallel/threads.hpp"
+#include "peridynamics/body.hpp"
+#include "peridynamics/bond_kernel.hpp"
+#include "peridynamics/domain.hpp"
+
+namespace rhexis::peridynamics {
+
+using parallel::block_rows;
+using parallel::ExactSum;
+
+/// Steps between looks at how far the body has moved as a whole.
+inline constexpr long frame_interval = 64;
+/// Once its middle is this many spacings from the frame, the frame follows, lest single precision loses
+/// digits.
+inline constexpr double frame_tolerance = 4;
+
+/// One block of 16 rows of one owned column: the unit of work.
+struct Unit {
+  std::int32_t slot, block;
+};
+
+/// What a thread gathers while it works.
+struct ThreadEvents {
+  explicit ThreadEvents(double energy_scale) : work(energy_scale) {}
+  ExactSum work;
+  std::int64_t broken = 0;
+  bool damaged = false, unstable = false;
+};
+
+/// What a thread gathers while it observes.
+struct ThreadTotals {
+  explicit ThreadTotals(double scale) : kinetic(scale), strain(scale), fracture(scale) {}
+  ExactSum kinetic, strain, fracture;
+  double max_damage = 0;
+  std::int64_t broken = 0;
+  std::int64_t ruptured_first = INT64_MAX, ruptured_last = -1;
+};
+
+template <class Law, class Real>
+class ColumnBody final : public Body {
+ public:
+  ColumnBody(BodySetup setup, parallel::Communicator comm)
+      : setup_(std::move(setup)),
+        comm_(comm),
+        periodic_(setup_.ends == EndCondition::axial_periodic),
+        threads_(parallel::thread_count()),
+        domain_(setup_.lattice, setup_.families, partition(setup_, comm.size()), comm.rank(), periodic_),
+        halo_(comm, domain_.halo_messages()),
+        inverse_spacing_(1 / setup_.lattice.spacing),
+        work_(setup_.energy_scale) {
+    make_bonds();
+    make_units();
+    for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c) {
+      largest_load_ = std::max(largest_load_, std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
+    }
+    const auto particles = static_cast<std::size_t>(domain_.layout().local_count());
+    for (int k = 0; k < 3; ++k) {
+      u_[k].assign(particles, 0.0);
+      v_[k].assign(particles, 0.0);
+      for (auto& copy : padded_) {
+        copy[k] = hwy::AllocateAligned<Real>(domain_.padded_size());
+        std::fill_n(copy[k].get(), domain_.padded_size(), Real{0});
+      }
+    }
+  }
+
+  const PointLayout& layout() const override { return domain_.layout(); }
+  std::array<std::span<const double>, 3> displacement() const override { return {u_[0], u_[1], u_[2]}; }
+  std::int64_t bond_evaluations() const override { return bond_evaluations_; }
+
+  std::array<double, 3> reference_position(std::int64_t column, std::int64_t row) const override {
+    const PointLayout& l = domain_.layout();
+    const auto c = static_cast<std::size_t>(l.first_column + column);
+    return {setup_.lattice.section.x[c], setup_.lattice.section.y[c],
+            (static_cast<double>(l.first_row + row) + 0.5) * setup_.lattice.row_spacing};
+  }
+
+  void set_state(const std::array<std::vector<double>, 3>& displacement,
+                 const std::array<std::vector<double>, 3>& velocity) override {
+    u_ = displacement;
+    v_ = velocity;
+    first_kick_pending_ = true;
+    follow_body();
+    fill_padded();
+  }
+
+  StepEvents advance(double pressure, double next_pressure) override;
+  const Observation& observe(double pressure) override;
+  Totals totals() const override;
+  double max_displacement() const override;
+  BondWordLayout bond_word_layout() const override;
+  Saved save() const override;
+  void restore(const Saved& saved) override;
+
+ private:
+  static parallel::Partition partition(const BodySetup& setup, int ranks) {
+    const std::size_t columns = setup.lattice.section.size();
+    std::vector<double> weights(columns);
+    for (std::size_t c = 0; c < columns; ++c) weights[c] = static_cast<double>(setup.families.count(c));
+    // Columns within a horizon of a radial cut through one side of the wall, both sides cut.
+    const double share =
+        setup.lattice.horizon / (setup.lattice.spacing * std::sqrt(static_cast<double>(columns)));
+    const auto halo = static_cast<std::int64_t>(share * static_cast<double>(columns)) + 1;
+    return parallel::make_partition(ranks, weights, setup.lattice.rows, halo, setup.families.reach);
+  }
+
+  std::size_t global_column(std::int32_t slot) const {
+    return static_cast<std::size_t>(domain_.layout().first_column + slot);
+  }
+  /// First particle of a unit in the state arrays.
+  std::size_t particle(Unit unit) const {
+    return static_cast<std::size_t>(unit.slot * domain_.layout().row_count + unit.block * block_rows);
+  }
+  std::size_t padded_place(Unit unit) const {
+    return domain_.padded(static_cast<std::size_t>(unit.slot)) +
+           static_cast<std::size_t>(unit.block * block_rows);
+  }
+  std::span<const BondConstants<Real>> bonds_of(Unit unit) const {
+    const std::int64_t begin = first_bond_[unit.slot], end = first_bond_[unit.slot + 1];
+    return {bonds_.data() + begin, static_cast<std::size_t>(end - begin)};
+  }
+  /// Words of a unit, one per bond of its column: [column][block][bond].
+  std::size_t first_word(Unit unit) const {
+    const std::int64_t bonds = first_bond_[unit.slot + 1] - first_bond_[unit.slot];
+    return static_cast<std::size_t>(first_bond_[unit.slot] * domain_.blocks() + unit.block * bonds);
+  }
+  const Bond& reference_bond(Unit unit, std::size_t b) const {
+    return setup_.families.bonds[setup_.families.first[global_column(unit.slot)] + b];
+  }
+  std::array<Real*, 3> current() { return pointers(padded_[now_]); }
+  std::array<Real*, 3> next() { return pointers(padded_[1 - now_]); }
+  using Padded = std::array<hwy::AlignedFreeUniquePtr<Real[]>, 3>;
+  static std::array<Real*, 3> pointers(Padded& p) { return {p[0].get(), p[1].get(), p[2].get()}; }
+
+  void make_bonds();
+  void make_units();
+  void follow_body();
+  void fill_padded();
+  BlockView<Real> view(Unit unit);
+  std::pair<int, int> free_rows(Unit unit) const;
+  void family_volumes(Unit unit, double (&intact)[block_rows], double (&whole)[block_rows]) const;
+  bool has_ruptured(Unit unit) const;
+  void step_unit(Unit unit, double pressure, double work_pressure, double kick, ThreadEvents& events);
+  void observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals);
+  template <class PerThread, class Work>
+  void with_halo(std::vector<PerThread>& per_thread, const Work& work);
+
+  BodySetup setup_;
+  parallel::Communicator comm_;
+  bool periodic_;
+  int threads_;
+  Domain domain_;
+  parallel::HaloExchange<Real> halo_;
+  double inverse_spacing_;
+
+  std::vector<std::int64_t> first_bond_;  ///< of owned columns, into bonds_
+  std::vector<BondConstants<Real>> bonds_;
+  std::vector<std::uint16_t> intact_;
+  std::vector<Unit> interior_, boundary_;  ///< units that read no halo, units that do
+
+  std::array<std::vector<double>, 3> u_, v_;  ///< m; m/s at half a step back (see first_kick_pending_)
+  std::array<Padded, 2> padded_;
+  int now_ = 0;
+  std::array<double, 3> frame_{};   ///< m, subtracted from u in padded arrays
+  bool first_kick_pending_ = true;  ///< v_ is at the same time as u_
+  long steps_ = 0;
+  bool damaged_ = false;
+  std::int64_t pending_broken_ = 0;  ///< broken while observing, to be told by the next step
+  std::int64_t intact_directed_ = 0;
+  std::int64_t bond_evaluations_ = 0;
+  ExactSum work_;
+  double work_before_ = 0;  ///< J, done before a restart (on rank 0)
+  /// m/s, what the load so far would have given a loose particle. One that outruns this twofold and moves
+  /// more than a spacing a step besides has not been moved by forces of the model: the step is unstable.
+  double load_speed_ = 0;
+  double largest_load_ = 0;  ///< 1/m, of the pressure layer
+  Observation observation_;
+  ThreadTotals observed_{1.0};
+};
+
+}  // namespace rhexis::peridynamics

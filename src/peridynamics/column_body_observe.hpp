@@ -1,0 +1,132 @@
+/// ColumnBody: fields and totals at one moment.
+#pragma once
+
+#include "peridynamics/column_body.hpp"
+
+namespace rhexis::peridynamics {
+
+template <class Law, class Real>
+void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals) {
+  BlockSums<Real> sums;
+  sum_block<Law, true>(view(unit), sums);
+  totals.broken += sums.broken;
+
+  const std::size_t column = global_column(unit.slot);
+  const Lattice& lattice = setup_.lattice;
+  const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
+  const double force_scale = setup_.bond_constant * volume;
+  const double energy_scale = force_scale * lattice.spacing;
+  const double particle_volume = lattice.volume(column);
+  const double load[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
+  const auto [first_free, past_free] = free_rows(unit);
+  const std::size_t first = particle(unit);
+  const int rows = domain_.rows_in(unit.block);
+
+  double speed2 = 0, strain = 0;
+  for (int k = 0; k < 3; ++k) {
+    const bool held = setup_.ends == EndCondition::clamped || k == 2;
+    for (int lane = 0; lane < rows; ++lane) {
+      const double force = force_scale * static_cast<double>(sums.force[k][lane]) + load[k];
+      const bool moves = !held || (lane >= first_free && lane < past_free);
+      const double v = v_[k][first + lane] + (moves ? kick * force / setup_.density : 0.0);
+      observation_.force_density[k][first + lane] = force;
+      observation_.velocity[k][first + lane] = v;
+      speed2 += v * v;
+    }
+  }
+  double intact[block_rows], whole[block_rows];
+  family_volumes(unit, intact, whole);
+  for (int lane = 0; lane < rows; ++lane) {
+    const double energy = energy_scale * static_cast<double>(sums.energy[lane]);
+    const double damage = whole[lane] > 0 ? 1 - intact[lane] / whole[lane] : 0;
+    observation_.strain_energy_density[first + lane] = energy;
+    observation_.damage[first + lane] = damage;
+    strain += energy;
+    totals.max_damage = std::max(totals.max_damage, damage);
+    if (damage >= rupture_damage) {
+      const std::int64_t row = domain_.layout().first_row + unit.block * block_rows + lane;
+      totals.ruptured_first = std::min(totals.ruptured_first, row);
+      totals.ruptured_last = std::max(totals.ruptured_last, row);
+    }
+  }
+  totals.kinetic.add(0.5 * setup_.density * particle_volume * speed2);
+  totals.strain.add(particle_volume * strain);
+
+  // A bond took c s0^2 |xi| V_i V_j / 2 to break; each of its ends accounts for half.
+  const double s0 = setup_.critical_stretch;
+  const double per_weight = 0.25 * energy_scale * s0 * s0 * particle_volume;
+  const auto bonds = bonds_of(unit);
+  const std::uint16_t* words = intact_.data() + first_word(unit);
+  double fracture = 0;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const std::uint16_t born = domain_.partners(unit.block, reference_bond(unit, b).row_offset);
+    fracture += std::popcount(static_cast<std::uint16_t>(born & ~words[b])) * double{bonds[b].energy_weight};
+  }
+  totals.fracture.add(per_weight * fracture);
+}
+
+template <class Law, class Real>
+const Observation& ColumnBody<Law, Real>::observe(double pressure) {
+  const std::size_t particles = u_[0].size();
+  for (int k = 0; k < 3; ++k) {
+    observation_.velocity[k].resize(particles);
+    observation_.force_density[k].resize(particles);
+  }
+  observation_.strain_energy_density.resize(particles);
+  observation_.damage.resize(particles);
+
+  const double kick = first_kick_pending_ ? 0.0 : 0.5 * setup_.time_step;
+  std::vector<ThreadTotals> per_thread(static_cast<std::size_t>(threads_), ThreadTotals(setup_.energy_scale));
+  with_halo(per_thread, [&](Unit unit, ThreadTotals& totals) { observe_unit(unit, pressure, kick, totals); });
+  observed_ = per_thread.front();
+  for (std::size_t t = 1; t < per_thread.size(); ++t) {
+    const ThreadTotals& other = per_thread[t];
+    observed_.kinetic.add(other.kinetic);
+    observed_.strain.add(other.strain);
+    observed_.fracture.add(other.fracture);
+    observed_.broken += other.broken;
+    observed_.max_damage = std::max(observed_.max_damage, other.max_damage);
+    observed_.ruptured_first = std::min(observed_.ruptured_first, other.ruptured_first);
+    observed_.ruptured_last = std::max(observed_.ruptured_last, other.ruptured_last);
+  }
+  pending_broken_ += observed_.broken;
+  intact_directed_ -= observed_.broken;
+  damaged_ = damaged_ || observed_.max_damage >= rupture_damage;
+  return observation_;
+}
+
+template <class Law, class Real>
+Totals ColumnBody<Law, Real>::totals() const {
+  Totals totals;
+  totals.kinetic = observed_.kinetic.value(comm_);
+  totals.strain = observed_.strain.value(comm_);
+  totals.fracture = observed_.fracture.value(comm_);
+  totals.external_work = work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
+  totals.max_displacement = max_displacement();
+  totals.max_damage = comm_.all_reduce(observed_.max_damage, parallel::Reduce::max);
+  std::int64_t born = 0;
+  for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
+    for (std::int32_t block = 0; block < domain_.blocks(); ++block) {
+      for (std::size_t b = 0; b < bonds_of({slot, block}).size(); ++b) {
+        born += std::popcount(domain_.partners(block, reference_bond({slot, block}, b).row_offset));
+      }
+    }
+  }
+  totals.broken_bonds = comm_.all_reduce(born - intact_directed_, parallel::Reduce::sum) / 2;
+  const std::int64_t first = comm_.all_reduce(observed_.ruptured_first, parallel::Reduce::min);
+  const std::int64_t last = comm_.all_reduce(observed_.ruptured_last, parallel::Reduce::max);
+  if (last >= first)
+    totals.rupture_length = static_cast<double>(last - first + 1) * setup_.lattice.row_spacing;
+  return totals;
+}
+
+template <class Law, class Real>
+double ColumnBody<Law, Real>::max_displacement() const {
+  double largest = 0;
+  for (std::size_t i = 0; i < u_[0].size(); ++i) {
+    largest = std::max(largest, u_[0][i] * u_[0][i] + u_[1][i] * u_[1][i] + u_[2][i] * u_[2][i]);
+  }
+  return std::sqrt(comm_.all_reduce(largest, parallel::Reduce::max));
+}
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,151 @@
+/// ColumnBody: one step in time.
+#pragma once
+
+#include "peridynamics/column_body.hpp"
+
+namespace rhexis::peridynamics {
+
+template <class Law, class Real>
+BlockView<Real> ColumnBody<Law, Real>::view(Unit unit) {
+  const std::size_t place = padded_place(unit);
+  const auto u = current();
+  return {{u[0] + place, u[1] + place, u[2] + place},
+          bonds_of(unit),
+          intact_.data() + first_word(unit),
+          static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
+}
+
+/// Rows of a unit, [first, past), that ends do not hold.
+template <class Law, class Real>
+std::pair<int, int> ColumnBody<Law, Real>::free_rows(Unit unit) const {
+  const int rows = domain_.rows_in(unit.block);
+  if (setup_.ends != EndCondition::clamped && setup_.ends != EndCondition::sliding) return {0, rows};
+  const auto held =
+      static_cast<std::int64_t>(std::ceil(setup_.end_length / setup_.lattice.row_spacing - 1e-9));
+  const std::int64_t first = domain_.layout().first_row + unit.block * block_rows;
+  const auto local = [&](std::int64_t row) {
+    return static_cast<int>(std::clamp<std::int64_t>(row - first, 0, rows));
+  };
+  return {local(held), std::max(local(held), local(domain_.layout().rows - held))};
+}
+
+/// Sums of V_j / spacing^3 over each row's unbroken bonds and over all it was born with.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::family_volumes(Unit unit, double (&intact)[block_rows],
+                                           double (&whole)[block_rows]) const {
+  std::fill_n(intact, block_rows, 0.0);
+  std::fill_n(whole, block_rows, 0.0);
+  const auto bonds = bonds_of(unit);
+  const std::uint16_t* words = intact_.data() + first_word(unit);
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const unsigned now = words[b];
+    const unsigned born = domain_.partners(unit.block, reference_bond(unit, b).row_offset);
+    const double volume = bonds[b].volume;
+    for (int lane = 0; lane < block_rows; ++lane) {
+      intact[lane] += (now >> lane & 1u) ? volume : 0.0;
+      whole[lane] += (born >> lane & 1u) ? volume : 0.0;
+    }
+  }
+}
+
+/// Eq. (6) reaches `rupture_damage` somewhere in the unit.
+template <class Law, class Real>
+bool ColumnBody<Law, Real>::has_ruptured(Unit unit) const {
+  double intact[block_rows], whole[block_rows];
+  family_volumes(unit, intact, whole);
+  for (int lane = 0; lane < domain_.rows_in(unit.block); ++lane) {
+    if (whole[lane] > 0 && 1 - intact[lane] / whole[lane] >= rupture_damage) return true;
+  }
+  return false;
+}
+
+/// Runs `work(unit, per_thread[t])` over all units; the halo travels while units that do not need it are
+/// done.
+template <class Law, class Real>
+template <class PerThread, class Work>
+void ColumnBody<Law, Real>::with_halo(std::vector<PerThread>& per_thread, const Work& work) {
+  const auto run = [&](const std::vector<Unit>& units) {
+    parallel::for_each_share(threads_, units.size(), [&](int thread, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) work(units[i], per_thread[thread]);
+    });
+  };
+  halo_.start(current());
+  run(interior_);
+  halo_.finish(current());
+  run(boundary_);
+}
+
+template <class Law, class Real>
+void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pressure, double kick,
+                                      ThreadEvents& events) {
+  BlockSums<Real> sums;
+  sum_block<Law, false>(view(unit), sums);
+  if (sums.broken > 0) {
+    events.broken += sums.broken;
+    if (!damaged_ && !events.damaged) events.damaged = has_ruptured(unit);
+  }
+
+  const std::size_t column = global_column(unit.slot);
+  const Lattice& lattice = setup_.lattice;
+  const double body_force[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
+  const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
+  const double bond_acceleration = setup_.bond_constant * volume / setup_.density;
+  const double dt = setup_.time_step;
+  const double fastest = lattice.spacing / dt + 2 * load_speed_;
+  const auto [first_free, past_free] = free_rows(unit);
+  const auto next_u = next();
+  bool sane = true;
+  double work = 0;
+  for (int k = 0; k < 3; ++k) {
+    // Sliding ends hold the axial component only.
+    const bool held = setup_.ends == EndCondition::clamped || k == 2;
+    const int first = held ? first_free : 0;
+    const int past = held ? past_free : domain_.rows_in(unit.block);
+    double* u = u_[k].data() + particle(unit);
+    double* v = v_[k].data() + particle(unit);
+    Real* out = next_u[k] + padded_place(unit);
+    const double load = body_force[k] / setup_.density;
+    const double frame = frame_[k];
+    double path = 0;
+    for (int lane = first; lane < past; ++lane) {
+      v[lane] += kick * (bond_acceleration * static_cast<double>(sums.force[k][lane]) + load);
+      u[lane] += dt * v[lane];
+      out[lane] = static_cast<Real>((u[lane] - frame) * inverse_spacing_);
+      path += v[lane];
+      sane &= std::abs(v[lane]) < fastest;
+    }
+    if (k == 0) work += setup_.layer.bx[column] * path;
+    if (k == 1) work += setup_.layer.by[column] * path;
+  }
+  if (setup_.layer.loads(column)) events.work.add(work_pressure * dt * lattice.volume(column) * work);
+  events.unstable = events.unstable || !sane;
+}
+
+template <class Law, class Real>
+StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure) {
+  if (steps_ % frame_interval == 0) follow_body();
+  const double kick = first_kick_pending_ ? 0.5 * setup_.time_step : setup_.time_step;
+  const double work_pressure = 0.5 * (pressure + next_pressure);
+  load_speed_ += setup_.time_step * std::abs(pressure) * largest_load_ / setup_.density;
+  std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
+  with_halo(per_thread,
+            [&](Unit unit, ThreadEvents& events) { step_unit(unit, pressure, work_pressure, kick, events); });
+  now_ = 1 - now_;
+  first_kick_pending_ = false;
+  ++steps_;
+
+  StepEvents events;
+  events.broken = std::exchange(pending_broken_, 0);
+  for (const ThreadEvents& t : per_thread) {
+    work_.add(t.work);
+    events.broken += t.broken;
+    intact_directed_ -= t.broken;
+    events.unstable = events.unstable || t.unstable;
+    damaged_ = damaged_ || t.damaged;
+  }
+  events.damaged = damaged_;
+  bond_evaluations_ += intact_directed_;
+  return events;
+}
+
+}  // namespace rhexis::peridynamics
