@@ -2,42 +2,58 @@
 
 Used by vessel.py while the program runs and by postprocessing/render_particles.py on saved files.
 Everything is derived from the particles: their box and spacing set the camera and the size of the spheres.
+
+Drawn with VTK directly. ParaView's views (paraview.simple) would draw the same, but need a second to start and five
+times as long for a picture: on 54,800 particles and two cores 0.5 s. There, nearly all the time goes into
+the processor's work on each sphere, so that here each rank sorts out what others hide, and the first rank draws the rest.
 """
 
 import math
+import struct
+import zlib
 
 import numpy
-from paraview.simple import (
-    Calculator,
-    ColorBy,
-    CreateLayout,
-    CreateRenderView,
-    GetColorTransferFunction,
-    GetScalarBar,
-    Line,
-    SaveScreenshot,
-    Show,
-    Text,
-    UpdatePipeline,
-)
-from paraview.vtk.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkCommonCore import vtkDoubleArray
+import vtkmodules.vtkRenderingFreeType
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (it and FreeType: how VTK draws)
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import VTK_INT, vtkDoubleArray, vtkFloatArray, vtkLookupTable, vtkPoints, vtkUnsignedCharArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersSources import vtkLineSource
 from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkColorTransferFunction,
+    vtkLight,
+    vtkPolyDataMapper,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+)
 
 WIDTH, HEIGHT = 1280, 720  # even numbers, as movies need them
 SPHERE = 1.2  # diameter of a sphere in spacings: neighbours touch, gaps between torn parts stay open
 AZIMUTH, ELEVATION = math.radians(22.5), math.radians(28)  # of the camera, about the vessel's axis z
 SLENDER = 4  # vessels longer than this many diameters lie down, one picture above the other
 DAMAGE_RANGE = 0.5  # a particle on the edge of a crack has lost about half of its bonds
-BLACK = [0.0, 0.0, 0.0]
+VIRIDIS = [
+    (0.267, 0.005, 0.329), (0.283, 0.141, 0.458), (0.254, 0.265, 0.530), (0.207, 0.372, 0.553), (0.164, 0.471, 0.558),
+    (0.128, 0.567, 0.551), (0.135, 0.659, 0.518), (0.267, 0.749, 0.441), (0.478, 0.821, 0.318), (0.741, 0.873, 0.150),
+    (0.993, 0.906, 0.144),
+]  # fmt: skip
+GREY_TO_RED = [(0.82, 0.82, 0.82), (0.98, 0.75, 0.55), (0.90, 0.33, 0.22), (0.45, 0.0, 0.05)]
 
-DISPLACEMENT_MM = "displacement_mm"
+
+def controller_of_ranks():
+    """None where there is one rank only."""
+    controller = vtkMultiProcessController.GetGlobalController()
+    return None if controller is None or controller.GetNumberOfProcesses() == 1 else controller
 
 
 def reduce_over_ranks(values, operation):
     """Element-wise minimum or maximum over all ranks."""
-    controller = vtkMultiProcessController.GetGlobalController()
-    if controller is None or controller.GetNumberOfProcesses() == 1:
+    controller = controller_of_ranks()
+    if controller is None:
         return numpy.array(values, float)
     send, receive = vtkDoubleArray(), vtkDoubleArray()
     for value in values:
@@ -47,17 +63,33 @@ def reduce_over_ranks(values, operation):
     return vtk_to_numpy(receive).copy()
 
 
+def gather(table):
+    """The rows of all ranks' tables (of floats) on the first rank, None on the others."""
+    controller = controller_of_ranks()
+    if controller is None:
+        return table
+    receive = vtkFloatArray()
+    receive.SetNumberOfComponents(table.shape[1])
+    controller.GatherV(numpy_to_vtk(table), receive, 0)
+    return vtk_to_numpy(receive) if controller.GetLocalProcessId() == 0 else None
+
+
+def column(particles, name):
+    """A field, or the "position"s, of this rank's particles."""
+    if particles.GetNumberOfPoints() == 0:
+        return numpy.empty((0, 3) if name in ("position", "displacement") else 0)
+    data = particles.GetPoints().GetData() if name == "position" else particles.GetPointData().GetArray(name)
+    return vtk_to_numpy(data)
+
+
 def measure(particles):
     """The box of the particles at rest (low corner, high corner) and their spacing, the same on all ranks."""
-    data = particles.GetClientSideObject().GetOutputDataObject(0)
     low, high, spacing = numpy.full(3, math.inf), numpy.full(3, -math.inf), math.inf
-    if data.GetNumberOfPoints() > 1:
-        moved = vtk_to_numpy(data.GetPoints().GetData())
-        rest = moved - vtk_to_numpy(data.GetPointData().GetArray("displacement"))
+    if particles.GetNumberOfPoints() > 1:
+        rest = column(particles, "position") - column(particles, "displacement")
         low, high = rest.min(axis=0), rest.max(axis=0)
-        sample = rest[:: max(1, len(rest) // 50)]
         nearest = []
-        for point in sample:
+        for point in rest[:: max(1, len(rest) // 15)]:
             squared = ((rest - point) ** 2).sum(axis=1)
             nearest.append(numpy.partition(squared, 1)[1])  # [0] is the point itself
         spacing = math.sqrt(numpy.median(nearest))
@@ -73,11 +105,22 @@ def round_up(value):
     return next(step * power for step in (1, 2, 5, 10) if step * power >= value * (1 - 1e-9))
 
 
+def extreme_of_neighbours(grid, reach, extreme):
+    """For each cell of a grid the extreme (numpy.maximum or numpy.minimum) of the square of cells around it."""
+    for axis in (0, 1):
+        padded = numpy.moveaxis(grid, axis, 0)
+        result = padded.copy()
+        for shift in range(1, reach + 1):
+            extreme(result[shift:], padded[:-shift], out=result[shift:])
+            extreme(result[:-shift], padded[shift:], out=result[:-shift])
+        grid = numpy.moveaxis(result, 0, axis)
+    return grid
+
+
 class VesselPicture:
     """Two views of the same particles from the same side: by displacement on the left (or above), beside it by damage."""
 
     def __init__(self, particles):
-        UpdatePipeline(proxy=particles)
         low, high, spacing = measure(particles)
         self.radius = 0.5 * max(high[0] - low[0], high[1] - low[1])
         self.length = high[2] - low[2]
@@ -86,47 +129,59 @@ class VesselPicture:
         self.width, self.height = (WIDTH // 2, HEIGHT) if self.upright else (WIDTH, HEIGHT // 2)  # of one view
         self.largest_mm = 0.0
         self._choose_camera()
+        self.sphere_pixels = max(1.5, SPHERE * spacing / (2 * self.scale) * self.height)
+        self.window = None  # of the first rank
 
-        self.scaled = Calculator(Input=particles, Function="1000*mag(displacement)", ResultArrayName=DISPLACEMENT_MM)
-        self.views = first, second = self._view(), self._view()
-        self.displacement_colours = self._viridis(self._show(self.scaled, DISPLACEMENT_MM, first, spacing))
-        self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", first)
-        damage_colours = self._grey_to_red(self._show(particles, "damage", second, spacing))
-        legend = self._legend(damage_colours, "Damage (fraction)", second)
-        legend.CustomLabels = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]
-        self.moment = text(first, 22, "Upper Left Corner")
-        self.step = text(second, 22, "Upper Right Corner")
-        self._scale_bar(first)
-
-        self.layout = CreateLayout("vessel")
-        (self.layout.SplitHorizontal if self.upright else self.layout.SplitVertical)(0, 0.5)
-        self.layout.AssignView(1, first)
-        self.layout.AssignView(2, second)
-        self.layout.SetSize(WIDTH, HEIGHT)
-
-    def save(self, path, step, time_s, pressure_pa=None):
-        """Draws the data of this moment."""
+    def save(self, path, particles, step, time_s, pressure_pa=None):
+        """Draws the data of this moment. Collective."""
+        position, damage = column(particles, "position"), column(particles, "damage")
+        displacement_mm = 1e3 * numpy.sqrt((column(particles, "displacement") ** 2).sum(axis=1))
+        top = self._displacement_range(displacement_mm)
+        seen = self._seen(position)
+        table = numpy.column_stack([position[seen], displacement_mm[seen], damage[seen]]).astype(numpy.float32)
+        table = gather(table)
+        if table is None:
+            return
+        if self.window is None:
+            self._make_window()
         pressure = "" if pressure_pa is None else f"      p = {pressure_pa / 1e3:.1f} kPa"
-        self.moment.Text = f"t = {time_s * 1e3:.3f} ms{pressure}"
-        self.step.Text = f"step {step}"
-        for view in self.views:
-            view.ViewTime = time_s
-        UpdatePipeline(time=time_s, proxy=self.scaled)
-        self._fit_displacement_range()
-        SaveScreenshot(str(path), self.layout, ImageResolution=[WIDTH, HEIGHT], SeparatorWidth=0)
+        self.moment.SetInput(f"t = {time_s * 1e3:.3f} ms{pressure}")
+        self.step.SetInput(f"step {step}")
+        self._set_displacement_range(top)
+        self._set_particles(table)
+        self.window.Render()
+        pixels = vtkUnsignedCharArray()
+        self.window.GetPixelData(0, 0, WIDTH - 1, HEIGHT - 1, 0, pixels)
+        write_png(path, vtk_to_numpy(pixels).reshape(HEIGHT, WIDTH, 3)[::-1])
 
-    def _fit_displacement_range(self):
+    def _seen(self, position):
+        """The numbers of the particles that no others of this rank hide from the camera, and perhaps a few more.
+
+        In a grid of small cells across the view, the nearest particle that covers a cell (all of it) hides what lies
+        behind. A particle is seen if it is before that, or near it, in any cell which it may touch.
+        """
+        radius = 0.5 * self.sphere_pixels * 2 * self.scale / self.height
+        cell = radius / 2.83  # a disc covers the 3 x 3 cells around its centre, wherever this is in its cell
+        across, up, depth = ((position - self.focus) @ numpy.array([self.right, self.up, self.sight]).T).T
+        half_width = self.scale * self.width / self.height
+        inside = numpy.flatnonzero((abs(across) < half_width + radius) & (abs(up) < self.scale + radius))
+        inside = inside[numpy.argsort(depth[inside])]  # so that the nearest is the last to be written below
+        rows = ((up[inside] + self.scale + radius) / cell).astype(int)
+        columns = ((across[inside] + half_width + radius) / cell).astype(int)
+        shape = math.ceil(2 * (self.scale + radius) / cell) + 1, math.ceil(2 * (half_width + radius) / cell) + 1
+        hidden_behind = numpy.full(shape, -math.inf, numpy.float32)
+        hidden_behind[rows, columns] = depth[inside]
+        hidden_behind = extreme_of_neighbours(hidden_behind, 1, numpy.maximum)
+        hidden_behind = extreme_of_neighbours(hidden_behind, 3, numpy.minimum)
+        return inside[depth[inside] + radius > hidden_behind[rows, columns]]
+
+    def _displacement_range(self, displacement_mm):
         """Zero to the largest displacement so far, rounded up (1, 2, 5, 10 ...), so that few frames of a
         movie change it; at most the vessel's radius, lest flying fragments hide the rest."""
-        data = self.scaled.GetClientSideObject().GetOutputDataObject(0)
-        array = data.GetPointData().GetArray(DISPLACEMENT_MM)  # of this rank's particles
-        largest = array.GetRange()[1] if data.GetNumberOfPoints() > 0 else 0.0
-        largest = reduce_over_ranks([largest], vtkCommunicator.MAX_OP)[0]
+        largest = reduce_over_ranks([displacement_mm.max(initial=0.0)], vtkCommunicator.MAX_OP)[0]
         radius_mm = 1e3 * self.radius
         self.largest_mm = max(self.largest_mm, largest, 0.01 * radius_mm)
-        top = min(round_up(self.largest_mm), round_up(radius_mm))
-        self.displacement_colours.RescaleTransferFunction(0.0, top)
-        self.displacement_legend.CustomLabels = [top * fifth / 5 for fifth in range(6)]
+        return min(round_up(self.largest_mm), round_up(radius_mm))
 
     def _choose_camera(self):
         """Parallel projection, so that lengths can be compared; looking down on the vessel's end a little."""
@@ -151,65 +206,107 @@ class VesselPicture:
             self.scale = 0.5 * max(long_side / 0.92 / shape, 2 * room / 0.6)
             self.focus = self.centre - 0.08 * 2 * self.scale * self.up
 
-    def _view(self):
-        view = CreateRenderView()
-        view.ViewSize = [self.width, self.height]
-        view.UseColorPaletteForBackground = 0
-        view.Background = [1.0, 1.0, 1.0]
-        view.OrientationAxesVisibility = 0
-        view.CenterAxesVisibility = 0
-        view.CameraParallelProjection = 1
-        view.CameraParallelScale = self.scale
-        view.CameraFocalPoint = list(self.focus)
-        view.CameraPosition = list(self.focus + 10 * (self.length + self.radius) * self.sight)
-        view.CameraViewUp = list(self.up)
+    def _make_window(self):
+        self.window = vtkRenderWindow()
+        self.window.SetOffScreenRendering(1)
+        self.window.SetMultiSamples(0)
+        self.window.SetSize(WIDTH, HEIGHT)
+        first, second = self.views = (
+            [self._view(0, 0, 0.5, 1), self._view(0.5, 0, 1, 1)]
+            if self.upright
+            else [self._view(0, 0.5, 1, 1), self._view(0, 0, 1, 0.5)]
+        )
+        self.displacement_colours = colours(VIRIDIS, "RGB")
+        damage_colours = colours(GREY_TO_RED, "Lab")
+        damage_colours.SetRange(0.0, DAMAGE_RANGE)
+        self.displacement_bodies = self._body(first, self.displacement_colours)
+        self.damage_bodies = self._body(second, damage_colours)
+        self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", first)
+        set_labels(self._legend(damage_colours, "Damage (fraction)", second), DAMAGE_RANGE)
+        self.moment = text(first, 22, (0.01, 0.96))
+        self.step = text(second, 22, (0.99, 0.96), on_the_right=True)
+        self._scale_bar(first)
+
+    def _view(self, *viewport):
+        view = vtkRenderer()
+        view.SetViewport(*viewport)
+        view.SetBackground(1.0, 1.0, 1.0)
+        camera = view.GetActiveCamera()
+        camera.ParallelProjectionOn()
+        camera.SetParallelScale(self.scale)
+        camera.SetFocalPoint(*self.focus)
+        camera.SetPosition(*(self.focus + 10 * (self.length + self.radius) * self.sight))
+        camera.SetViewUp(*self.up)
+        view.AutomaticLightCreationOff()
+        light = vtkLight()  # one light only, as each costs time on each pixel
+        light.SetLightTypeToCameraLight()
+        light.SetPosition(0.3, 0.5, 1.0)
+        view.AddLight(light)
+        self.window.AddRenderer(view)
         return view
 
-    def _show(self, source, array, view, spacing):
-        display = Show(source, view)
-        display.Representation = "Points"
-        display.RenderPointsAsSpheres = 1
-        display.PointSize = max(1.5, SPHERE * spacing / (2 * self.scale) * self.height)
-        display.Interpolation = "Gouraud"
-        display.Ambient = 0.2
-        display.Specular = 0.15
-        ColorBy(display, ("POINTS", array), separate=True)  # colours of its own: scripts share those named by an array
-        return display
+    def _body(self, view, colours):
+        """Spheres at points that come later."""
+        body = vtkPolyData()
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputData(body)
+        mapper.SetLookupTable(colours)
+        mapper.UseLookupTableScalarRangeOn()
+        actor = vtkActor()
+        actor.SetMapper(mapper)
+        looks = actor.GetProperty()
+        looks.SetRenderPointsAsSpheres(True)
+        looks.SetPointSize(self.sphere_pixels)
+        looks.SetAmbient(0.2)
+        looks.SetDiffuse(0.9)
+        view.AddActor(actor)
+        return body
 
-    def _viridis(self, display):
-        colours = GetColorTransferFunction(DISPLACEMENT_MM, display, separate=True)
-        colours.AutomaticRescaleRangeMode = "Never"
-        colours.ApplyPreset("Viridis (matplotlib)", False)
-        return colours
+    def _set_particles(self, table):
+        points = vtkPoints()
+        points.SetData(numpy_to_vtk(numpy.ascontiguousarray(table[:, :3]), deep=True))
+        numbers = numpy.arange(len(table) + 1, dtype=numpy.int32)
+        vertices = vtkCellArray()
+        vertices.SetData(numpy_to_vtk(numbers, True, VTK_INT), numpy_to_vtk(numbers[:-1], True, VTK_INT))
+        for body, values in ((self.displacement_bodies, table[:, 3]), (self.damage_bodies, table[:, 4])):
+            body.SetPoints(points)
+            body.SetVerts(vertices)
+            body.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(values), deep=True))
+        for view in self.views:
+            view.ResetCameraClippingRange()
 
-    def _grey_to_red(self, display):
-        colours = GetColorTransferFunction("damage", display, separate=True)
-        colours.AutomaticRescaleRangeMode = "Never"
-        shades = [(0.82, 0.82, 0.82), (0.98, 0.75, 0.55), (0.90, 0.33, 0.22), (0.45, 0.0, 0.05)]
-        points = []
-        for number, shade in enumerate(shades):
-            points += [DAMAGE_RANGE * number / (len(shades) - 1), *shade]
-        colours.ColorSpace = "Lab"
-        colours.RGBPoints = points
-        return colours
+    def _set_displacement_range(self, top):
+        if self.displacement_colours.GetRange()[1] == top:
+            return
+        self.displacement_colours.SetRange(0.0, top)
+        set_labels(self.displacement_legend, top)
 
     def _legend(self, colours, title, view):
-        bar = GetScalarBar(colours, view)
-        bar.Title, bar.ComponentTitle = title, ""
-        bar.TitleColor = bar.LabelColor = BLACK
-        bar.TitleFontFamily = bar.LabelFontFamily = "Arial"
-        bar.TitleFontSize = bar.LabelFontSize = 18
-        bar.HorizontalTitle = 1
-        bar.AutomaticLabelFormat, bar.LabelFormat = 0, "%g"
-        bar.UseCustomLabels, bar.AddRangeLabels = 1, 0
-        bar.ScalarBarThickness = 18
-        bar.DrawBackground, bar.BackgroundColor, bar.BackgroundPadding = 1, [1.0, 1.0, 1.0, 0.8], 6  # on top of fragments
-        bar.WindowLocation = "Any Location"
+        bar = vtkScalarBarActor()
+        bar.SetLookupTable(colours)
+        bar.SetTitle(title)
+        bar.SetLabelFormat("%g")
+        bar.UnconstrainedFontSizeOn()
+        for style in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
+            plain(style, 18)
+        bar.SetTextPositionToSucceedScalarBar()
+        bar.DrawBackgroundOn()  # on top of fragments
+        bar.GetBackgroundProperty().SetColor(1.0, 1.0, 1.0)
+        bar.GetBackgroundProperty().SetOpacity(0.8)
+        bar.GetBackgroundProperty()
         if self.upright:
-            bar.Orientation, bar.ScalarBarLength, bar.Position = "Vertical", 0.5, [0.80, 0.22]
+            bar.SetOrientationToVertical()
+            bar.SetPosition(0.74, 0.2)
+            bar.SetWidth(0.25)
+            bar.SetHeight(0.56)
+            bar.SetBarRatio(0.12)
         else:
-            bar.Orientation, bar.ScalarBarLength, bar.Position = "Horizontal", 0.35, [0.325, 0.06]
-        bar.Visibility = 1
+            bar.SetOrientationToHorizontal()
+            bar.SetPosition(0.325, 0.02)
+            bar.SetWidth(0.35)
+            bar.SetHeight(0.22)
+            bar.SetBarRatio(0.3)
+        view.AddActor2D(bar)
         return bar
 
     def _scale_bar(self, view):
@@ -217,25 +314,77 @@ class VesselPicture:
         width = 2 * self.scale * self.width / self.height
         length = round_up((0.1 if self.upright else 0.05) * width)
         corner = self.focus - 0.93 * self.scale * self.up - 0.47 * width * self.right + 4 * self.radius * self.sight
-        display = Show(Line(Point1=list(corner), Point2=list(corner + length * self.right)), view)
-        display.AmbientColor = display.DiffuseColor = BLACK
-        display.LineWidth = 3
-        text(view, 18, "Any Location", [0.03, 0.05]).Text = f"{1e3 * length:g} mm"
+        line = vtkLineSource()
+        line.SetPoint1(*corner)
+        line.SetPoint2(*(corner + length * self.right))
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputConnection(line.GetOutputPort())
+        actor = vtkActor()
+        actor.SetMapper(mapper)
+        actor.GetProperty().SetColor(0.0, 0.0, 0.0)
+        actor.GetProperty().SetLineWidth(3)
+        view.AddActor(actor)
+        text(view, 18, (0.03, 0.05)).SetInput(f"{1e3 * length:g} mm")
 
 
-def text(view, size, place, position=(0.0, 0.0)):
-    """An empty line of text at one of ParaView's named places or, for "Any Location", at a position (0 ... 1)."""
-    source = Text(Text="")
-    display = Show(source, view)
-    display.Color = BLACK
-    display.FontFamily = "Arial"
-    display.FontSize = size
-    display.WindowLocation = place
-    display.Position = list(position)
-    return source
+def colours(shades, space):
+    """A table of 256 colours between shades of equal distances."""
+    function = vtkColorTransferFunction()
+    function.SetColorSpace({"RGB": 0, "Lab": 2}[space])
+    for number, shade in enumerate(shades):
+        function.AddRGBPoint(number / (len(shades) - 1), *shade)
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(256)
+    for number in range(256):
+        table.SetTableValue(number, *function.GetColor(number / 255))
+    return table
+
+
+def set_labels(bar, top):
+    labels = vtkDoubleArray()
+    for fifth in range(6):
+        labels.InsertNextValue(top * fifth / 5)
+    bar.SetCustomLabels(labels)
+    bar.UseCustomLabelsOn()
+
+
+def plain(style, size):
+    style.SetColor(0.0, 0.0, 0.0)
+    style.SetFontFamilyToArial()
+    style.SetFontSize(size)
+    style.BoldOff()
+    style.ItalicOff()
+    style.ShadowOff()
+
+
+def text(view, size, position, on_the_right=False):
+    """An empty line of text at a position (0 ... 1) in a view."""
+    actor = vtkTextActor()
+    plain(actor.GetTextProperty(), size)
+    if on_the_right:
+        actor.GetTextProperty().SetJustificationToRight()
+    actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    actor.SetPosition(*position)
+    view.AddActor2D(actor)
+    return actor
+
+
+def write_png(path, rows):
+    """Twice as fast as VTK's writer (at its fastest), and what goes wrong is raised."""
+    height, width, _ = rows.shape
+    lines = numpy.empty((height, 1 + 3 * width), numpy.uint8)
+    lines[:, 0] = 2  # the filter "up": each line as the difference from the one above
+    lines[0, 1:] = rows[0].reshape(-1)
+    numpy.subtract(rows[1:], rows[:-1], out=lines[1:, 1:].reshape(height - 1, width, 3))
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)  # 8 bits of red, green and blue
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n")
+        for kind, content in ((b"IHDR", header), (b"IDAT", zlib.compress(lines, 1)), (b"IEND", b"")):
+            file.write(struct.pack(">I", len(content)) + kind + content)
+            file.write(struct.pack(">I", zlib.crc32(content, zlib.crc32(kind))))
 
 
 def field_value(particles, name):
     """A number that goes with the particles (e.g. "pressure", in Pa), None where there is none of this name."""
-    array = particles.GetClientSideObject().GetOutputDataObject(0).GetFieldData().GetArray(name)
+    array = particles.GetFieldData().GetArray(name)
     return None if array is None else array.GetTuple1(0)

@@ -46,13 +46,15 @@ def main():
     frames = read_frames(arguments.particles)
     if not frames:
         sys.exit(f"error: {arguments.particles} holds no moment in time")
-    particles = XDMFReader(FileNames=[str(arguments.particles)])
-    particles.PointArrayStatus = ["displacement", "damage"]
-    picture = VesselPicture(particles)
+    reader = XDMFReader(FileNames=[str(arguments.particles)])
+    reader.PointArrayStatus = ["displacement", "damage"]
+    picture = None
     for time_s, step in frames[:: arguments.every]:
-        particles.UpdatePipeline(time_s)
+        reader.UpdatePipeline(time_s)
+        particles = reader.GetClientSideObject().GetOutputDataObject(0)
+        picture = picture or VesselPicture(particles)
         image = output / f"vessel_{step:06d}.png"
-        picture.save(image, step, time_s, field_value(particles, "pressure"))
+        picture.save(image, particles, step, time_s, field_value(particles, "pressure"))
         print(image)
 
 

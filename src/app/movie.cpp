@@ -4,8 +4,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <map>
-#include <regex>
 #include <vector>
 
 extern char** environ;
@@ -29,11 +29,12 @@ int run_program(std::vector<std::string> arguments) {
 
 std::string make_movie(const std::filesystem::path& images, const std::filesystem::path& movie,
                        double frames_per_second) {
-  const std::regex numbered("(.*)_[0-9]+\\.png");
   std::map<std::string, int> series;
   for (const auto& entry : std::filesystem::directory_iterator(images)) {
-    const std::string name = entry.path().filename().string();
-    if (std::smatch match; std::regex_match(name, match, numbered)) ++series[match[1]];
+    if (entry.path().extension() != ".png") continue;
+    const std::string stem = entry.path().stem().string();
+    const std::size_t end = stem.find_last_not_of("0123456789");
+    if (end != std::string::npos && end + 1 < stem.size() && stem[end] == '_') ++series[stem.substr(0, end)];
   }
   const auto longest = std::max_element(series.begin(), series.end(),
                                         [](const auto& a, const auto& b) { return a.second < b.second; });

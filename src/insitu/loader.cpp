@@ -27,8 +27,9 @@ void* open_plugin(const Settings& settings, std::string& reason) {
   // OSMesa first: whoever comes first in the global scope provides the gl... functions that VTK calls
   // directly.
   if (settings.renderer == Renderer::automatic || settings.renderer == Renderer::osmesa) open_osmesa();
-  // Global, because Python's extension modules look for Python and VTK there.
-  void* plugin = dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
+  // Global, because Python's extension modules look for Python and VTK there; lazy, because binding every
+  // function of ParaView's 400 libraries takes as long again as loading them.
+  void* plugin = dlopen(path.c_str(), RTLD_LAZY | RTLD_GLOBAL);
   if (plugin == nullptr) reason = std::string("not available: ") + dlerror();
   return plugin;
 }
