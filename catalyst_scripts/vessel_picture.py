@@ -3,9 +3,9 @@
 Used by vessel.py while the program runs and by postprocessing/render_particles.py on saved files.
 Everything is derived from the particles: their box and spacing set the camera and the size of the spheres.
 
-Drawn with VTK directly. ParaView's views (paraview.simple) would draw the same, but need a second to start and five
-times as long for a picture: on 54,800 particles and two cores 0.5 s. There, nearly all the time goes into
-the processor's work on each sphere, so that here each rank sorts out what others hide, and the first rank draws the rest.
+Drawn with VTK itself: ParaView's views (paraview.simple) draw the same, but take two seconds longer to start and four
+to five times as long for a picture. Most of the time goes into the work of the processor (no graphics card)
+on each pixel of each sphere. So each rank leaves out what its other particles hide, and the first rank draws the rest.
 """
 
 import math
@@ -16,7 +16,14 @@ import numpy
 import vtkmodules.vtkRenderingFreeType
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (it and FreeType: how VTK draws)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import VTK_INT, vtkDoubleArray, vtkFloatArray, vtkLookupTable, vtkPoints, vtkUnsignedCharArray
+from vtkmodules.vtkCommonCore import (
+    VTK_INT,
+    vtkDoubleArray,
+    vtkFloatArray,
+    vtkLookupTable,
+    vtkPoints,
+    vtkUnsignedCharArray,
+)
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkLineSource
 from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
@@ -24,7 +31,6 @@ from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
     vtkColorTransferFunction,
-    vtkLight,
     vtkPolyDataMapper,
     vtkRenderer,
     vtkRenderWindow,
@@ -106,14 +112,18 @@ def round_up(value):
 
 
 def extreme_of_neighbours(grid, reach, extreme):
-    """For each cell of a grid the extreme (numpy.maximum or numpy.minimum) of the square of cells around it."""
+    """For each cell of a grid the extreme (numpy.maximum or numpy.minimum) of the square of cells around it.
+
+    Cells nearer than `reach` to the grid's border get minus infinity.
+    """
     for axis in (0, 1):
-        padded = numpy.moveaxis(grid, axis, 0)
-        result = padded.copy()
-        for shift in range(1, reach + 1):
-            extreme(result[shift:], padded[:-shift], out=result[shift:])
-            extreme(result[:-shift], padded[shift:], out=result[:-shift])
-        grid = numpy.moveaxis(result, 0, axis)
+        result, width = numpy.moveaxis(grid, axis, 0), 1  # the extreme of `width` cells from each cell on
+        while width < 2 * reach + 1:
+            shift = min(width, 2 * reach + 1 - width)
+            result, width = extreme(result[:-shift], result[shift:]), width + shift
+        moved = numpy.full_like(numpy.moveaxis(grid, axis, 0), -math.inf)
+        moved[reach:-reach] = result
+        grid = numpy.moveaxis(moved, 0, axis)
     return grid
 
 
@@ -129,7 +139,7 @@ class VesselPicture:
         self.width, self.height = (WIDTH // 2, HEIGHT) if self.upright else (WIDTH, HEIGHT // 2)  # of one view
         self.largest_mm = 0.0
         self._choose_camera()
-        self.sphere_pixels = max(1.5, SPHERE * spacing / (2 * self.scale) * self.height)
+        self.sphere_pixels = max(2.5, SPHERE * spacing / (2 * self.scale) * self.height)
         self.window = None  # of the first rank
 
     def save(self, path, particles, step, time_s, pressure_pa=None):
@@ -161,19 +171,23 @@ class VesselPicture:
         behind. A particle is seen if it is before that, or near it, in any cell which it may touch.
         """
         radius = 0.5 * self.sphere_pixels * 2 * self.scale / self.height
-        cell = radius / 2.83  # a disc covers the 3 x 3 cells around its centre, wherever this is in its cell
-        across, up, depth = ((position - self.focus) @ numpy.array([self.right, self.up, self.sight]).T).T
+        cell = radius / 5.66  # a disc covers the 7 x 7 cells around its centre, wherever this is in its cell,
+        covers, touches = 3, 6  # and touches no more than 13 x 13
+        across, up, depth = numpy.array([self.right, self.up, self.sight]) @ (position - self.focus).T
         half_width = self.scale * self.width / self.height
         inside = numpy.flatnonzero((abs(across) < half_width + radius) & (abs(up) < self.scale + radius))
+        if len(inside) == 0:
+            return inside
         inside = inside[numpy.argsort(depth[inside])]  # so that the nearest is the last to be written below
-        rows = ((up[inside] + self.scale + radius) / cell).astype(int)
-        columns = ((across[inside] + half_width + radius) / cell).astype(int)
-        shape = math.ceil(2 * (self.scale + radius) / cell) + 1, math.ceil(2 * (half_width + radius) / cell) + 1
-        hidden_behind = numpy.full(shape, -math.inf, numpy.float32)
-        hidden_behind[rows, columns] = depth[inside]
-        hidden_behind = extreme_of_neighbours(hidden_behind, 1, numpy.maximum)
-        hidden_behind = extreme_of_neighbours(hidden_behind, 3, numpy.minimum)
-        return inside[depth[inside] + radius > hidden_behind[rows, columns]]
+        across, up, depth = across[inside], up[inside], depth[inside].astype(numpy.float32)
+        border = 2 * touches
+        rows = border + ((up - up.min()) / cell).astype(int)
+        columns = border + ((across - across.min()) / cell).astype(int)
+        hidden_behind = numpy.full((rows.max() + border + 1, columns.max() + border + 1), -math.inf, numpy.float32)
+        hidden_behind[rows, columns] = depth
+        hidden_behind = extreme_of_neighbours(hidden_behind, covers, numpy.maximum)
+        hidden_behind = extreme_of_neighbours(hidden_behind, touches, numpy.minimum)
+        return inside[depth + radius > hidden_behind[rows, columns]]
 
     def _displacement_range(self, displacement_mm):
         """Zero to the largest displacement so far, rounded up (1, 2, 5, 10 ...), so that few frames of a
@@ -223,8 +237,11 @@ class VesselPicture:
         self.damage_bodies = self._body(second, damage_colours)
         self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", first)
         set_labels(self._legend(damage_colours, "Damage (fraction)", second), DAMAGE_RANGE)
-        self.moment = text(first, 22, (0.01, 0.96))
-        self.step = text(second, 22, (0.99, 0.96), on_the_right=True)
+        self.moment = text(first, 22, (0.01, 0.99))
+        self.step = text(second, 22, (0.99, 0.99))
+        self.step.GetTextProperty().SetJustificationToRight()
+        for line in (self.moment, self.step):
+            line.GetTextProperty().SetVerticalJustificationToTop()
         self._scale_bar(first)
 
     def _view(self, *viewport):
@@ -237,11 +254,6 @@ class VesselPicture:
         camera.SetFocalPoint(*self.focus)
         camera.SetPosition(*(self.focus + 10 * (self.length + self.radius) * self.sight))
         camera.SetViewUp(*self.up)
-        view.AutomaticLightCreationOff()
-        light = vtkLight()  # one light only, as each costs time on each pixel
-        light.SetLightTypeToCameraLight()
-        light.SetPosition(0.3, 0.5, 1.0)
-        view.AddLight(light)
         self.window.AddRenderer(view)
         return view
 
@@ -257,8 +269,10 @@ class VesselPicture:
         looks = actor.GetProperty()
         looks.SetRenderPointsAsSpheres(True)
         looks.SetPointSize(self.sphere_pixels)
-        looks.SetAmbient(0.2)
-        looks.SetDiffuse(0.9)
+        # One light from above the camera, without VTK's general sums over lights: saves a quarter of the time.
+        light = "max(0.0, dot(normalVCVSOutput, vec3(0.17, 0.5, 0.85)))"
+        shading = f"gl_FragData[0] = vec4((0.35 + 0.7 * {light}) * diffuseColor, 1.0);"
+        actor.GetShaderProperty().AddFragmentShaderReplacement("//VTK::Light::Impl", True, shading, False)
         view.AddActor(actor)
         return body
 
@@ -284,28 +298,27 @@ class VesselPicture:
     def _legend(self, colours, title, view):
         bar = vtkScalarBarActor()
         bar.SetLookupTable(colours)
-        bar.SetTitle(title)
-        bar.SetLabelFormat("%g")
         bar.UnconstrainedFontSizeOn()
-        for style in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
-            plain(style, 18)
-        bar.SetTextPositionToSucceedScalarBar()
+        plain(bar.GetLabelTextProperty(), 18)
         bar.DrawBackgroundOn()  # on top of fragments
         bar.GetBackgroundProperty().SetColor(1.0, 1.0, 1.0)
         bar.GetBackgroundProperty().SetOpacity(0.8)
-        bar.GetBackgroundProperty()
         if self.upright:
             bar.SetOrientationToVertical()
-            bar.SetPosition(0.74, 0.2)
-            bar.SetWidth(0.25)
-            bar.SetHeight(0.56)
-            bar.SetBarRatio(0.12)
+            bar.SetLabelFormat("  %g")
+            bar.SetPosition(0.8, 0.22)
+            bar.SetWidth(0.14)
+            bar.SetHeight(0.5)
+            bar.SetBarRatio(0.2)
+            text(view, 18, (0.71, 0.74), title)
         else:
             bar.SetOrientationToHorizontal()
-            bar.SetPosition(0.325, 0.02)
+            bar.SetLabelFormat("%g")
+            bar.SetPosition(0.325, 0.03)
             bar.SetWidth(0.35)
-            bar.SetHeight(0.22)
-            bar.SetBarRatio(0.3)
+            bar.SetHeight(0.12)
+            bar.SetBarRatio(0.4)
+            text(view, 18, (0.325, 0.17), title)
         view.AddActor2D(bar)
         return bar
 
@@ -324,7 +337,7 @@ class VesselPicture:
         actor.GetProperty().SetColor(0.0, 0.0, 0.0)
         actor.GetProperty().SetLineWidth(3)
         view.AddActor(actor)
-        text(view, 18, (0.03, 0.05)).SetInput(f"{1e3 * length:g} mm")
+        text(view, 18, (0.03, 0.05), f"{1e3 * length:g} mm")
 
 
 def colours(shades, space):
@@ -357,12 +370,14 @@ def plain(style, size):
     style.ShadowOff()
 
 
-def text(view, size, position, on_the_right=False):
-    """An empty line of text at a position (0 ... 1) in a view."""
+def text(view, size, position, line=""):
+    """A line of text at a position (0 ... 1) in a view."""
     actor = vtkTextActor()
-    plain(actor.GetTextProperty(), size)
-    if on_the_right:
-        actor.GetTextProperty().SetJustificationToRight()
+    actor.SetInput(line)
+    style = actor.GetTextProperty()
+    plain(style, size)
+    style.SetBackgroundColor(1.0, 1.0, 1.0)  # on top of fragments
+    style.SetBackgroundOpacity(0.8)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     actor.SetPosition(*position)
     view.AddActor2D(actor)

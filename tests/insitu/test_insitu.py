@@ -114,6 +114,20 @@ class Pictures(DriverTest):
         self.assertEqual(reddish(rest).sum(), 0)
         self.assertGreater(reddish(torn).sum(), 1000)
 
+    def test_nothing_that_could_be_seen_is_left_out(self):
+        self.run_driver(VESSEL)
+        path = self.images / "vessel_000050.png"
+        fewer = read(path)
+        path.unlink()
+        script = self.script(
+            f"import sys\nsys.path.append({str(VESSEL.parent)!r})\nimport numpy, vessel_picture\n"
+            "vessel_picture.VesselPicture._seen = lambda self, position: numpy.arange(len(position))\n"
+            + VESSEL.read_text()
+        )
+        self.run_driver(script)
+        different = (numpy.abs(read(path) - fewer) > 2).any(axis=-1)
+        self.assertLess(different.mean(), 1e-3)  # where spheres of the same depth meet, the first drawn wins
+
     def test_fields_and_image_directory(self):
         script = self.script(
             'fields = ["damage"]\n' + MINIMAL +
@@ -210,6 +224,10 @@ class Failures(DriverTest):
             "def catalyst_execute(info): f.UpdatePipeline()\n"
         )
         self.assertEqual(self.failure(script), f"Catalyst script {script}: ValueError: 5")
+
+    def test_picture_that_cannot_be_written(self):
+        (self.images / "vessel_000050.png").mkdir(parents=True)
+        self.assertRegex(self.failure(VESSEL, ranks=2), r"vessel.py, line \d+: IsADirectoryError: .*vessel_000050.png")
 
     def test_stuck_ranks_end_the_run(self):
         script = self.script(RANK + MINIMAL + "def catalyst_execute(info):\n  if rank == 1: 1 / 0\n"
