@@ -36,14 +36,18 @@ double seconds_per_step(const Configuration& c, const Lattice& lattice, const Bo
 
 /// Bytes that the wall takes: state, what bonds read, bond bits, and fields while they are observed and
 /// written.
-double body_bytes(const Configuration& c, const Lattice& lattice, const BondFamilies& families) {
+double body_bytes(const Configuration& c, const Lattice& lattice, const BondFamilies& families, int ranks) {
   const double real = c.vessel.bond_precision == "double" ? sizeof(double) : sizeof(float);
   const auto particles = static_cast<double>(lattice.particles());
   const double blocks = static_cast<double>((lattice.rows + 15) / 16);
   const double state = particles * (6 * sizeof(double) + 6 * real);
   const double bits = static_cast<double>(families.bonds.size()) * blocks * sizeof(std::uint16_t);
+  // Families of all columns on every rank, and the kernel's tables of them once.
+  const double tables =
+      static_cast<double>(families.bonds.size()) *
+      (ranks * static_cast<double>(sizeof(peridynamics::Bond)) + 7 * real + sizeof(std::int32_t));
   const double observed = particles * (8 + 3 + 3) * sizeof(double);
-  return state + bits + observed;
+  return state + bits + tables + observed;
 }
 
 }  // namespace
@@ -73,7 +77,7 @@ void check(const Configuration& c, parallel::Communicator comm) {
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));
   console.item("outputs", grouped(static_cast<long long>(c.output_steps.size())));
   console.item("memory", fmt::format("about {:.0f} MB for the wall, all ranks together",
-                                     body_bytes(c, lattice, families) / 1e6));
+                                     body_bytes(c, lattice, families, comm.size()) / 1e6));
   console.item(
       "time",
       fmt::format("about {} of solving on {} rank{} x {} thread{} (measured now; output and pictures "

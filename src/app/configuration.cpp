@@ -41,28 +41,42 @@ void settle_time_step(Configuration& c) {
   c.time_step = c.vessel.time_step.value_or(c.vessel.step_fraction * c.stable_time_step);
   if (c.time_step > c.stable_time_step) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +
-                         quantity(c.stable_time_step, "s") + "; take less, or \"auto\" for " +
+                         quantity(0.9995 * c.stable_time_step, "s", 3) + "; take less, or \"auto\" for " +
                          quantity(c.vessel.step_fraction * c.stable_time_step, "s"),
                      "time.step");
   }
   const double steps = c.vessel.end_time / c.time_step;
   if (steps > 1e12) throw InputError("the run would take " + text(steps) + " steps", "time.end");
   c.steps = std::max(1L, static_cast<long>(std::ceil(steps - 1e-6)));
-  if (!c.vessel.time_step) c.time_step = c.vessel.end_time / static_cast<double>(c.steps);
+  if (!c.vessel.time_step) {
+    c.time_step = c.vessel.end_time / static_cast<double>(c.steps);
+  } else if (std::abs(steps - static_cast<double>(c.steps)) > 1e-3) {
+    c.warnings.push_back("time.end is not a whole number of steps; the run ends at " +
+                         quantity(static_cast<double>(c.steps) * c.time_step, "s", 6));
+  }
 }
 
 /// Scripts are looked for from the working folder first (what is typed at the terminal), then from the input
-/// file's folder (what an input file says of its neighbours).
-void resolve_scripts(Configuration& c) {
+/// file's folder (what an input file says of its neighbours); by the root rank, for ranks may see other
+/// files.
+void resolve_scripts(Configuration& c, parallel::Communicator comm) {
   namespace fs = std::filesystem;
   for (std::string& script : c.insitu.scripts) {
-    const fs::path beside = fs::path(c.file).parent_path() / script;
-    if (!fs::exists(script) && !fs::exists(beside)) {
-      throw InputError("there is no Catalyst script " + fs::absolute(script).lexically_normal().string() +
-                           " or " + fs::absolute(beside).lexically_normal().string(),
-                       "insitu.scripts");
+    std::string found, error;
+    if (comm.is_root()) {
+      const fs::path beside = fs::path(c.file).parent_path() / script;
+      if (fs::exists(script)) {
+        found = fs::canonical(script).string();
+      } else if (fs::exists(beside)) {
+        found = fs::canonical(beside).string();
+      } else {
+        error = "there is no Catalyst script " + fs::absolute(script).lexically_normal().string() + " or " +
+                fs::absolute(beside).lexically_normal().string();
+      }
     }
-    script = fs::canonical(fs::exists(script) ? fs::path(script) : beside).string();
+    error = comm.broadcast(error);
+    if (!error.empty()) throw InputError(error, "insitu.scripts");
+    script = comm.broadcast(found);
   }
 }
 
@@ -90,7 +104,7 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
     c.warnings = peridynamics::resolve(c.vessel);
     settle_time_step(c);
     c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
-    if (c.insitu.enabled) resolve_scripts(c);
+    if (c.insitu.enabled) resolve_scripts(c, comm);
   } catch (const InputError& error) {
     throw input::located(error, resolved);
   }

@@ -31,7 +31,10 @@ std::string duration(double seconds) {
 }
 
 Console::Console(bool speaks, bool quiet)
-    : speaks_(speaks && !quiet), terminal_(isatty(STDOUT_FILENO) != 0) {}
+    : speaks_(
+          speaks &&
+          !quiet),  // mpirun gives the first rank a terminal of its own even where the output goes to a file.
+      terminal_(isatty(STDOUT_FILENO) != 0 && std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {}
 
 Console::~Console() {
   clear_bar();

@@ -16,6 +16,15 @@ output::WordBlock word_block(const peridynamics::Body& body) {
   return {l.rows, l.words, l.first_row, l.row_count, l.first_word, l.word_count};
 }
 
+/// The keys that make a body what it is, with their values: what a checkpoint can only be restored to.
+std::string body_description(const nlohmann::ordered_json& input) {
+  nlohmann::ordered_json values;
+  for (const char* section : {"vessel", "material", "discretisation", "boundary"}) {
+    for (const auto& [key, entry] : input.at(section).items()) values[section][key] = entry.at("value");
+  }
+  return values.dump();
+}
+
 /// A number that may be absent, as checkpoints store it: times and lengths here are never negative.
 constexpr double absent = -1;
 
@@ -31,7 +40,9 @@ void VesselRun::write_checkpoint(long step) {
   const auto path = options_.directory / "checkpoints" / fmt::format("step_{:06d}.h5", step);
   output::CheckpointWriter file(path, comm_);
   file.write("step", std::int64_t{step});
+  file.write("body", body_description(c_.record));
   file.write("time_step", c_.time_step);
+  file.write("frame_phase", std::int64_t{saved.frame_phase});
   file.write("first_kick_pending", std::int64_t{saved.first_kick_pending});
   file.write("external_work", saved.external_work);
   file.write("load_speed", saved.load_speed);
@@ -55,15 +66,27 @@ void VesselRun::read_checkpoint() {
   output::CheckpointReader file(options_.restart, comm_);
   peridynamics::Body::Saved saved = body_->save();
   double time_step = 0, onset = absent, first_break = absent, onset_displacement = absent;
-  std::int64_t pending = 0, step = 0;
+  std::int64_t pending = 0, step = 0, frame_phase = 0;
   file.read("step", step);
   first_step_ = static_cast<long>(step);
+  if (first_step_ >= c_.steps) {
+    throw InputError(fmt::format("{}: the checkpoint is of step {}, this run ends at step {}; raise time.end",
+                                 options_.restart.string(), first_step_, c_.steps));
+  }
+  std::string body;
+  file.read("body", body);
+  if (body != body_description(c_.record)) {
+    throw InputError(fmt::format("{}: the checkpoint is of another body: {}; this run has {}",
+                                 options_.restart.string(), body, body_description(c_.record)));
+  }
   file.read("time_step", time_step);
   if (time_step != c_.time_step) {
     throw InputError(
         fmt::format("{}: the checkpoint was made with a time step of {} s, this run has {} s; set time.step",
                     options_.restart.string(), time_step, c_.time_step));
   }
+  file.read("frame_phase", frame_phase);
+  saved.frame_phase = static_cast<long>(frame_phase);
   file.read("first_kick_pending", pending);
   saved.first_kick_pending = pending != 0;
   file.read("external_work", saved.external_work);

@@ -74,9 +74,9 @@ void VesselRun::say_summary() {
   }
   console_.item("energy", fmt::format("balance off by {:.1e} of the work done", *r.energy_drift));
   const long steps = step_ - first_step_;
-  console_.item("speed",
-                fmt::format("{:.0f} steps/s, {:.3g} bonds/s", static_cast<double>(steps) / *p.solve_s,
-                            p.bond_evaluations_per_s.value_or(0)));
+  console_.item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s",
+                                     *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
+                                     p.bond_evaluations_per_s.value_or(0)));
   console_.item("time spent",
                 fmt::format("{} in all: {} solving, {} pictures, {} output", duration(*p.wall_s),
                             duration(*p.solve_s), duration(*p.insitu_s), duration(*p.output_s)));

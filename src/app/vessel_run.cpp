@@ -49,8 +49,8 @@ double VesselRun::pressure_at(long step) const {
 Ending VesselRun::run() {
   build();
   if (!options_.restart.empty()) read_checkpoint();
-  open_results();
   try {
+    open_results();
     start_insitu();
     say_header();
     time_loop();
@@ -70,6 +70,7 @@ Ending VesselRun::run() {
 
 /// Tells run.json why the run failed; a disk that is full for this too must not hide the reason.
 void VesselRun::note_failure(const std::string& reason) {
+  if (!record_) return;
   try {
     record_->fail(reason, results_, performance());
   } catch (const RunError& also) {
@@ -96,13 +97,13 @@ void VesselRun::open_results() {
   const bool restarts = !options_.restart.empty();
   output::prepare_directory(options_.directory,
                             restarts ? output::EarlierResults::keep : output::EarlierResults::remove, comm_);
-  record_.emplace(options_.directory / "run.json", version(), commit(), c_.record, comm_);
   if (restarts) {
     // The first moment is observed anew, so the row that the earlier run may have left of it goes.
     history_.emplace(options_.directory / "history.csv", comm_, first_step_ - 1);
   } else {
     history_.emplace(options_.directory / "history.csv", comm_);
   }
+  record_.emplace(options_.directory / "run.json", version(), commit(), c_.record, comm_);
   if (c_.output.fields.empty()) return;
   output::PointSeriesPlan plan;
   plan.directory = options_.directory;
@@ -171,6 +172,10 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     results_.rupture_length_m = t.rupture_length;
     results_.opening_area_m2 = open_area_;
     const double energy = t.kinetic + t.strain + t.fracture;
+    // Energy out of nowhere, or none to speak of: the surest sign of a time step that is too long.
+    if (!(std::isfinite(energy) && energy <= 2 * std::abs(t.external_work))) {
+      throw RunError(unstable_message(step, "the wall holds more energy than the load has put in"));
+    }
     const double scale = std::max(std::abs(t.external_work), energy);
     results_.energy_drift = scale > 0 ? (energy - t.external_work) / scale : 0.0;
     history_->append({step, time_at(step), pressure, t.max_displacement, t.max_damage,
@@ -184,13 +189,18 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   }
 }
 
+std::string VesselRun::unstable_message(long step, const std::string& sign) const {
+  return fmt::format(
+      "the run became unstable by step {} ({}): {}; use a smaller time.step (now {}; {} is stable "
+      "while strains are small)",
+      step, quantity(time_at(step), "s"), sign, quantity(c_.time_step, "s"),
+      quantity(c_.stable_time_step, "s"));
+}
+
 /// Notes what the forces' evaluation at `step` brought about, on any rank.
 void VesselRun::take_notice(long step, std::uint64_t flags) {
   if (flags & Flag::unstable) {
-    throw RunError(fmt::format(
-        "the run became unstable at step {} ({}): a particle outran what the load can do; use a smaller "
-        "time.step (now {}; {} is stable while strains are small)",
-        step, quantity(time_at(step), "s"), quantity(c_.time_step, "s"), quantity(c_.stable_time_step, "s")));
+    throw RunError(unstable_message(step, "a particle outran what the load can do"));
   }
   if (flags & Flag::broken && !results_.first_bond_break_s) results_.first_bond_break_s = time_at(step);
   if (flags & Flag::ruptured && !results_.rupture_onset_s) {
@@ -218,13 +228,14 @@ void VesselRun::time_loop() {
   for (step_ = first_step_;; ++step_) {
     const bool due = output_due(step_) || step_ == first_step_ || interrupted_;
     const bool pictures = pictures_due(step_, due);
+    const bool saves =
+        c_.output.checkpoint_every > 0 && step_ > first_step_ && step_ % c_.output.checkpoint_every == 0;
+    // First of all, because a launcher that was interrupted may not leave time for more.
+    if (interrupted_ || saves) write_checkpoint(step_);
     if (due || pictures) observe(step_, due, pictures);
     console_.progress(step_, c_.steps,
                       fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
                                   quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
-    const bool saves =
-        c_.output.checkpoint_every > 0 && step_ > first_step_ && step_ % c_.output.checkpoint_every == 0;
-    if (interrupted_ || saves) write_checkpoint(step_);
     if (interrupted_ || step_ == c_.steps) return;
 
     const Stopwatch watch(spent_.solve);

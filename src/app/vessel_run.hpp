@@ -40,6 +40,7 @@ class VesselRun {
     double solve = 0, output = 0, insitu = 0;  ///< s
   };
 
+  std::string unstable_message(long step, const std::string& sign) const;
   void note_failure(const std::string& reason);
   void build();
   void open_results();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 
 namespace rhexis::output {
 
@@ -46,6 +47,14 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields) {
 std::vector<long> planned_steps(const Parameters& p, long steps, double time_step) {
   if (p.every_steps && p.every_time) {
     throw InputError("give either output.every_steps or output.every_time, not both", "output.every_time");
+  }
+  constexpr double most_outputs = 1e5;
+  double outputs = 0;
+  if (p.every_steps) outputs = static_cast<double>(steps) / static_cast<double>(*p.every_steps);
+  if (p.every_time) outputs = static_cast<double>(steps) * time_step / *p.every_time;
+  if (outputs > most_outputs) {
+    throw InputError("this makes " + text(outputs) + " outputs; at most 100000 are possible",
+                     p.every_time ? "output.every_time" : "output.every_steps");
   }
   std::vector<long> plan;
   if (p.every_time) {

@@ -1,7 +1,9 @@
 #include "parallel/communicator.hpp"
 
 #include <omp.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace rhexis::parallel {
@@ -27,11 +29,22 @@ void reduce_in_place(MPI_Comm comm, std::span<T> values, MPI_Datatype type, Redu
                 comm);
 }
 
+/// Ranks of one machine share its cores, unless the launcher has bound each to cores of its own.
+void share_cores() {
+  MPI_Comm node;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  const int ranks = Communicator(node).size();
+  MPI_Comm_free(&node);
+  const auto cores_of_machine = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+  omp_set_num_threads(std::clamp(cores_of_machine / ranks, 1, omp_get_num_procs()));
+}
+
 }  // namespace
 
 Session::Session(int& argc, char**& argv) {
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  if (std::getenv("OMP_NUM_THREADS") == nullptr) share_cores();
 }
 
 Session::~Session() {

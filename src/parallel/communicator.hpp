@@ -10,7 +10,8 @@
 
 namespace rhexis::parallel {
 
-/// Initialises MPI for the life of the program (MPI_THREAD_FUNNELED: only the main thread calls MPI).
+/// Initialises MPI for the life of the program (MPI_THREAD_FUNNELED: only the main thread calls MPI), and
+/// shares the cores of a machine among its ranks where OMP_NUM_THREADS is not set.
 class Session {
  public:
   Session(int& argc, char**& argv);

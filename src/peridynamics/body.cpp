@@ -1,5 +1,7 @@
 #include "peridynamics/body.hpp"
 
+#include <algorithm>
+
 #include "peridynamics/column_body_observe.hpp"
 #include "peridynamics/column_body_state.hpp"
 #include "peridynamics/column_body_step.hpp"
@@ -18,9 +20,11 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families
   setup.bond_constant = Pmb::bond_constant(p.young_modulus, *p.horizon);
   setup.critical_stretch = p.critical_stretch;
   setup.time_step = time_step;
-  // Strain energy of the whole wall at the critical stretch: nothing that happens exceeds it by much.
+  // Strain energy of the whole wall at the critical stretch, or the pressure on as much: what happens stays
+  // within some powers of ten of it.
   const double volume = static_cast<double>(setup.lattice.particles()) * setup.lattice.volume(0);
-  setup.energy_scale = p.young_modulus * p.critical_stretch * p.critical_stretch * volume;
+  setup.energy_scale =
+      std::max(p.young_modulus * p.critical_stretch * p.critical_stretch, p.pressure) * volume;
   setup.double_bonds = p.bond_precision == "double";
   return setup;
 }

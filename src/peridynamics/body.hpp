@@ -90,9 +90,10 @@ class Body {
     std::array<std::vector<double>, 3> displacement, leapfrog_velocity;
     std::vector<std::uint16_t> words;
     bool first_kick_pending = false;
-    double external_work = 0;  ///< J
-    double load_speed = 0;     ///< m/s, see ColumnBody
-    std::array<double, 3> frame{};
+    double external_work = 0;       ///< J
+    double load_speed = 0;          ///< m/s, see ColumnBody
+    std::array<double, 3> frame{};  ///< m
+    long frame_phase = 0;           ///< steps since the body's motion was looked at
   };
   virtual BondWordLayout bond_word_layout() const = 0;
   virtual Saved save() const = 0;

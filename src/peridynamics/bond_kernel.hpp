@@ -1,8 +1,9 @@
 /// The inner loop: forces of one column's bonds on 16 of its rows at once (Eqs. 1, 2, 5).
 ///
 /// Gather: every particle sums its whole family, in the family's fixed order, lane by lane; nothing is
-/// scattered. So the digits do not depend on threads, ranks or vector width, and as |xi + eta|^2 is computed
-/// from terms that change only their sign between the two ends, both ends break a bond in the same step.
+/// scattered. So on one kind of processor the digits do not depend on threads and ranks, and as |xi + eta|^2
+/// is computed from terms that change only their sign between the two ends, both ends break a bond in the
+/// same step.
 ///
 /// Lengths are in spacings. With y = xi + eta:  t = eta . (xi + y) / |xi|^2  is (1 + s)^2 - 1 without
 /// cancellation.

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <string>
 
+#include "core/error.hpp"
 #include "parallel/exact_sum.hpp"
 #include "parallel/partition.hpp"
 #include "parallel/threads.hpp"
@@ -61,6 +63,11 @@ class ColumnBody final : public Body {
         halo_(comm, domain_.halo_messages()),
         inverse_spacing_(1 / setup_.lattice.spacing),
         work_(setup_.energy_scale) {
+    // Offsets between particles are 32-bit numbers in the kernel's tables.
+    if (comm_.all_reduce(static_cast<std::int64_t>(domain_.padded_size()), parallel::Reduce::max) >
+        INT32_MAX) {
+      throw RunError("the body is too large for " + std::to_string(comm_.size()) + " rank(s); use more");
+    }
     make_bonds();
     make_units();
     for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c) {
@@ -183,8 +190,8 @@ class ColumnBody final : public Body {
   std::int64_t bond_evaluations_ = 0;
   ExactSum work_;
   double work_before_ = 0;  ///< J, done before a restart (on rank 0)
-  /// m/s, what the load so far would have given a loose particle. One that outruns this twofold and moves
-  /// more than a spacing a step besides has not been moved by forces of the model: the step is unstable.
+  /// m/s, what the load so far would have given a loose particle. One that is four times as fast, and moves
+  /// more than two spacings a step besides, was not moved by forces of the model: the step is unstable.
   double load_speed_ = 0;
   double largest_load_ = 0;  ///< 1/m, of the pressure layer
   Observation observation_;

@@ -104,7 +104,7 @@ BondWordLayout ColumnBody<Law, Real>::bond_word_layout() const {
 
 template <class Law, class Real>
 Body::Saved ColumnBody<Law, Real>::save() const {
-  Saved saved{u_, v_, {}, first_kick_pending_, 0, load_speed_, frame_};
+  Saved saved{u_, v_, {}, first_kick_pending_, 0, load_speed_, frame_, steps_ % frame_interval};
   saved.external_work = work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
   saved.words.reserve(intact_.size());
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
@@ -125,6 +125,7 @@ void ColumnBody<Law, Real>::restore(const Saved& saved) {
   work_before_ = saved.external_work;
   load_speed_ = saved.load_speed;
   frame_ = saved.frame;
+  steps_ = saved.frame_phase;
   auto word = saved.words.begin();
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
     for (std::size_t b = 0; b < bonds_of({slot, 0}).size(); ++b) {

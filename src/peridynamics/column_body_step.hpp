@@ -91,7 +91,7 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
   const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
   const double bond_acceleration = setup_.bond_constant * volume / setup_.density;
   const double dt = setup_.time_step;
-  const double fastest = lattice.spacing / dt + 2 * load_speed_;
+  const double fastest = 2 * lattice.spacing / dt + 4 * load_speed_;
   const auto [first_free, past_free] = free_rows(unit);
   const auto next_u = next();
   bool sane = true;

@@ -27,7 +27,7 @@ Domain::Domain(const Lattice& lattice, const BondFamilies& families, const paral
   layout_.first_row = partition.first_row(rank);
   layout_.row_count = partition.past_row(rank) - layout_.first_row;
 
-  // A cache line of rows in front keeps owned rows aligned and holds the halo rows (reach is at most 8).
+  // A cache line of rows in front keeps owned rows aligned and holds the halo rows (reach is at most 12).
   front_ = block_rows;
   stride_ = front_ + static_cast<std::size_t>((blocks() + 1) * block_rows);
   // Strides that are a multiple of a page would map all columns to the same cache sets.

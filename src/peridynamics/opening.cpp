@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace rhexis::peridynamics {
 namespace {
 
-constexpr std::size_t bins = 1024;
-constexpr std::size_t words = bins / 64;
-constexpr double bin_width = 2 * std::numbers::pi / bins;
+/// Bins to the widest gap of an intact wall: a gap is then known to an eighth.
+constexpr double bins_per_gap = 16;
+
+/// A multiple of 64 that gives `widest_gap` (rad) that many.
+std::size_t bins_for(double widest_gap) {
+  return 64 * static_cast<std::size_t>(std::ceil(bins_per_gap * 2 * std::numbers::pi / widest_gap / 64));
+}
 
 /// Widest angle between neighbours among the columns of a cross-section, rad.
 double widest_gap(const CrossSection& section) {
@@ -22,8 +27,9 @@ double widest_gap(const CrossSection& section) {
 }
 
 /// Lengths of the runs of clear bits, in bins; the bins close to a circle.
-std::vector<std::size_t> empty_runs(const std::uint64_t* row) {
-  const auto occupied = [&](std::size_t bin) { return (row[bin / 64 % words] >> (bin % 64) & 1) != 0; };
+std::vector<std::size_t> empty_runs(std::span<const std::uint64_t> row) {
+  const std::size_t bins = 64 * row.size();
+  const auto occupied = [&](std::size_t bin) { return (row[bin / 64] >> (bin % 64) & 1) != 0; };
   std::size_t start = 0;
   while (start < bins && !occupied(start)) ++start;
   std::vector<std::size_t> runs;
@@ -47,11 +53,14 @@ OpeningGauge::OpeningGauge(const Lattice& lattice, const Body& body, parallel::C
       comm_(comm),
       row_spacing_(lattice.row_spacing),
       radius_quantum_(std::ldexp(lattice.spacing, -20)),
-      widest_intact_gap_(widest_gap(lattice.section)) {}
+      widest_intact_gap_(widest_gap(lattice.section)),
+      bins_(bins_for(widest_intact_gap_)) {}
 
 double OpeningGauge::area() const {
   const PointLayout& layout = body_->layout();
   const auto u = body_->displacement();
+  const std::size_t words = bins_ / 64;
+  const double bin_width = 2 * std::numbers::pi / static_cast<double>(bins_);
   std::vector<std::uint64_t> occupied(static_cast<std::size_t>(layout.rows) * words);
   std::vector<std::int64_t> radii(static_cast<std::size_t>(layout.rows));  // sums, in quanta
   std::size_t i = 0;
@@ -61,7 +70,7 @@ double OpeningGauge::area() const {
       const double px = x[0] + u[0][i], py = x[1] + u[1][i];
       const auto row = static_cast<std::size_t>(layout.first_row + r);
       const double turn = std::atan2(py, px) / (2 * std::numbers::pi) + 0.5;
-      const auto bin = std::min(bins - 1, static_cast<std::size_t>(turn * bins));
+      const auto bin = std::min(bins_ - 1, static_cast<std::size_t>(turn * static_cast<double>(bins_)));
       occupied[row * words + bin / 64] |= std::uint64_t{1} << (bin % 64);
       radii[row] += std::llround(std::min(std::hypot(px, py) / radius_quantum_, 0x1p40));
     }
@@ -73,7 +82,7 @@ double OpeningGauge::area() const {
   for (std::size_t row = 0; row < radii.size(); ++row) {
     const double radius =
         static_cast<double>(radii[row]) * radius_quantum_ / static_cast<double>(layout.columns);
-    for (std::size_t run : empty_runs(&occupied[row * words])) {
+    for (std::size_t run : empty_runs({&occupied[row * words], words})) {
       // A run of n empty bins lies between particles that are n to n + 2 bins apart.
       const double gap = static_cast<double>(run + 1) * bin_width;
       if (gap > 1.5 * widest_intact_gap_) area += (gap - widest_intact_gap_) * radius * row_spacing_;

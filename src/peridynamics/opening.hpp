@@ -28,6 +28,7 @@ class OpeningGauge {
   parallel::Communicator comm_;
   double row_spacing_, radius_quantum_;
   double widest_intact_gap_;  ///< rad
+  std::size_t bins_;          ///< of angle, per row
 };
 
 /// Share of the scheduled pressure left in a vessel that leaks: blood enters through `supply_area` and leaves

@@ -31,13 +31,8 @@ ParameterList declare(Parameters& p) {
       {"material.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"",
        "Young's modulus of the wall; Poisson's ratio is 1/4 in the bond-based law.", "Table 2, Eq. (4)",
        Range::positive()},
-      {"material.critical_stretch",
-       &p.critical_stretch,
-       "1",
-       "0.25",
-       "Stretch at which a bond breaks, s0.",
-       "Table 2, Eq. (5)",
-       {.lower = 0, .upper = 10, .lower_open = true}},
+      {"material.critical_stretch", &p.critical_stretch, "1", "0.25", "Stretch at which a bond breaks, s0.",
+       "Table 2, Eq. (5)", Range::between(1e-6, 10)},
 
       {"discretisation.cross_section",
        &p.cross_section,
@@ -258,10 +253,16 @@ std::vector<std::string> resolve(Parameters& p) {
   resolve_ends(p);
 
   std::vector<std::string> warnings;
-  const double across = (p.outer_radius - p.inner_radius) / *p.spacing;
+  const double wall = p.outer_radius - p.inner_radius;
+  const double across = wall / *p.spacing;
   if (across < 2.999) {
     warnings.push_back("the wall is " + text(across) +
                        " spacings thick; below 3 its stiffness and strength mean little");
+  }
+  if (p.layer == "paper" && *p.layer_thickness > wall * (1 + 1e-9)) {
+    warnings.push_back("the loaded layer (" + quantity(*p.layer_thickness, "m") +
+                       ") is thicker than the wall (" + quantity(wall, "m") +
+                       "): part of the load falls outside it and is lost");
   }
   return warnings;
 }

@@ -267,7 +267,9 @@ class Cli(unittest.TestCase):
         self.assertEqual(last, record["results"]["steps"])
         self.assertTrue(os.path.exists(self.path(f"cut/checkpoints/step_{last:06d}.h5")))
         for checkpoint, more in (("absent.h5", []), ("whole/checkpoints/step_000150.h5", ["--set", "time.step=400 ns"]),
-                                 ("whole/checkpoints/step_000150.h5", ["--set", "vessel.length=3 mm"])):
+                                 ("whole/checkpoints/step_000150.h5", ["--set", "vessel.length=3 mm"]),
+                                 ("whole/checkpoints/step_000150.h5", ["--set", "boundary.ends=free"]),
+                                 ("whole/checkpoints/step_000150.h5", ["--set", "time.end=50 us"])):
             refused = self.rhexis("run", "vessel.toml", "-o", "x", "--restart", checkpoint, *more)
             self.assertEqual(refused.returncode, 2, refused.stderr)
             self.assertIn(checkpoint, refused.stderr)

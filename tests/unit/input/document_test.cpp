@@ -1,4 +1,6 @@
 // The flat list of keys and values, from files, texts and --set. What is refused is in test_malformed.cpp.
+#include "input/document.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -7,7 +9,6 @@
 #include <fstream>
 
 #include "core/error.hpp"
-#include "input/document.hpp"
 
 namespace rhexis::input {
 namespace {

@@ -1,4 +1,6 @@
 // The reference that `rhexis keys` prints.
+#include "input/keys.hpp"
+
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -6,7 +8,6 @@
 #include "core/error.hpp"
 #include "input/description.hpp"
 #include "input/document.hpp"
-#include "input/keys.hpp"
 #include "input/reader.hpp"
 #include "sample_parameters.hpp"
 

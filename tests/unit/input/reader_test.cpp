@@ -1,7 +1,8 @@
 // From a document to typed values in SI, the record of the run, and errors of the physics put in their place.
+#include "input/reader.hpp"
+
 #include <gtest/gtest.h>
 
-#include "input/reader.hpp"
 #include "sample_parameters.hpp"
 
 namespace rhexis::input {

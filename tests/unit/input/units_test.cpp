@@ -1,9 +1,10 @@
 // Units at the door. Tolerance: 4 units in the last place (conversion by factors that are not whole), else
 // exact.
+#include "input/units.hpp"
+
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "input/units.hpp"
 
 namespace rhexis::input {
 namespace {

@@ -1,10 +1,11 @@
 // Restart from a checkpoint on other numbers of ranks; all comparisons are exact.
+#include "output/checkpoint.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "core/error.hpp"
-#include "output/checkpoint.hpp"
 #include "small_disk.hpp"
 #include "synthetic_source.hpp"
 #include "temporary_directory.hpp"

@@ -1,7 +1,8 @@
+#include "output/directory.hpp"
+
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "output/directory.hpp"
 #include "temporary_directory.hpp"
 
 namespace rhexis {

@@ -1,7 +1,8 @@
+#include "output/history.hpp"
+
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "output/history.hpp"
 #include "temporary_directory.hpp"
 
 namespace rhexis {

@@ -31,6 +31,15 @@ TEST(PlannedSteps, ByThemselvesAboutNinety) {
   EXPECT_EQ(plan.back(), 4500);
 }
 
+TEST(PlannedSteps, MoreThanAnybodyWantsAreRefused) {
+  Parameters p;
+  p.every_time = 1e-15;
+  EXPECT_THROW(planned_steps(p, 100, 1e-6), InputError);
+  p.every_time.reset();
+  p.every_steps = 1;
+  EXPECT_THROW(planned_steps(p, 1'000'000'000, 1e-6), InputError);
+}
+
 TEST(PlannedSteps, BothIntervalsAreRefused) {
   Parameters p;
   p.every_steps = 1;

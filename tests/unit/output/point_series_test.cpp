@@ -1,12 +1,13 @@
 // The file is read back with HDF5's serial C API, as any other program would. All comparisons are exact: the
 // values of the synthetic source fit single precision.
+#include "output/point_series.hpp"
+
 #include <gtest/gtest.h>
 #include <hdf5.h>
 #include <sys/stat.h>
 
 #include "core/error.hpp"
 #include "output/disk_space.hpp"
-#include "output/point_series.hpp"
 #include "small_disk.hpp"
 #include "synthetic_source.hpp"
 #include "temporary_directory.hpp"

@@ -1,9 +1,10 @@
+#include "output/run_record.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.hpp"
-#include "output/run_record.hpp"
 #include "temporary_directory.hpp"
 
 namespace rhexis {

@@ -151,6 +151,13 @@ TEST(Parameters, ThinWallIsWarnedOf) {
   p = test::paper_vessel();
   p.spacing = 2e-4;
   p.horizon = 7e-4;
+  p.layer = "consistent";
+  EXPECT_EQ(resolve(p).size(), 1u);
+}
+
+TEST(Parameters, LoadThatFallsOutsideTheWallIsWarnedOf) {
+  Parameters p = test::paper_vessel();
+  p.layer_thickness = 6e-4;
   EXPECT_EQ(resolve(p).size(), 1u);
 }
 

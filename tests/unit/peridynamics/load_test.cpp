@@ -107,6 +107,22 @@ TEST_P(Opening, IntactAndUniformlyWidenedWallsAreClosed) {
   EXPECT_EQ(gauge.area(), 0);
 }
 
+TEST(Opening, IntactWallsOfAnyFinenessAreClosed) {
+  // Rings of 100 to 1200 columns: whatever the bins, the gaps of the reference state do not count.
+  for (double spacing = 1e-4; spacing > 9e-6; spacing *= 0.87) {
+    Parameters p = test::paper_vessel(3 * spacing);
+    p.cross_section = "polar";
+    p.ends = "free";
+    p.outer_radius = p.inner_radius + 4 * spacing;
+    p.spacing = spacing;
+    p.horizon = 2.01 * spacing;
+    BodySetup setup = test::setup_of(p, 1e-9);
+    const Lattice lattice = setup.lattice;
+    const auto body = make_body(std::move(setup), test::self());
+    ASSERT_EQ(OpeningGauge(lattice, *body, test::self()).area(), 0) << lattice.section.size();
+  }
+}
+
 TEST_P(Opening, KnownSlitIsMeasured) {
   // The wall is cut along the negative x axis over its middle third and bent open to a gap of known angle.
   Parameters p = test::paper_vessel(3e-3);
