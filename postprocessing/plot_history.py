@@ -54,6 +54,7 @@ def plot(history):
         ("external_work_J", "work of the load", "#444444"),
         ("strain_J", "strain energy", blue),
         ("kinetic_J", "kinetic energy", red),
+        ("fracture_J", "fracture energy", "#2f7d32"),
     ):
         bottom.plot(time_ms, 1e3 * history[name], label=label, color=colour, linewidth=1.8)
     bottom.set_ylabel("energy (mJ)")

@@ -180,7 +180,7 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     results_.energy_drift = scale > 0 ? (energy - t.external_work) / scale : 0.0;
     history_->append({step, time_at(step), pressure, t.max_displacement, t.max_damage,
                       static_cast<long>(t.broken_bonds), t.kinetic, t.strain, t.external_work,
-                      t.rupture_length, leak});
+                      t.rupture_length, leak, t.fracture, open_area_});
     if (series_) series_->write(*source_);
   }
   if (with_pictures) {

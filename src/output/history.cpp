@@ -16,13 +16,14 @@ namespace {
 
 constexpr const char* header =
     "step,time_s,pressure_Pa,max_displacement_m,max_damage,broken_bonds,kinetic_J,strain_J,external_work_J,"
-    "rupture_length_m,leak_m3_s";
+    "rupture_length_m,leak_m3_s,fracture_J,opening_m2";
 
 std::string line_of(const HistoryRow& row) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", row.step, row.time_s, row.pressure_Pa,
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row.step, row.time_s, row.pressure_Pa,
                      row.max_displacement_m, row.max_damage, row.broken_bonds, row.kinetic_J, row.strain_J,
                      row.external_work_J, row.rupture_length_m,
-                     row.leak_m3_s ? fmt::format("{}", *row.leak_m3_s) : std::string{});
+                     row.leak_m3_s ? fmt::format("{}", *row.leak_m3_s) : std::string{}, row.fracture_J,
+                     row.opening_m2);
 }
 
 /// The header and the complete rows up to `last_step` of the file; the header alone where there is no file.

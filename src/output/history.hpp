@@ -22,10 +22,12 @@ struct HistoryRow {
   double strain_J = 0;
   double external_work_J = 0;
   double rupture_length_m = 0;
-  std::optional<double> leak_m3_s = {};  ///< empty cell where nothing leaks into a network
+  std::optional<double> leak_m3_s = {};  ///< empty cell where there is no leak to speak of
+  double fracture_J = 0;
+  double opening_m2 = 0;
 };
 
-/// Appends rows, each on disk before the next step begins. Collective; only the root touches the file.
+/// Appends rows, each handed to the system before the next step begins. Collective; only the root touches the file.
 /// Numbers are the shortest decimals that read back as the same double.
 class History {
  public:

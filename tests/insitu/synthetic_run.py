@@ -49,7 +49,7 @@ def write(folder, frames=3, length_m=10e-3):
     folder.mkdir(parents=True, exist_ok=True)
     rest = vessel(length_m)
     grids, history = [], ["step,time_s,pressure_Pa,max_displacement_m,max_damage,broken_bonds,kinetic_J,strain_J,"
-                          "external_work_J,rupture_length_m,leak_m3_s"]
+                          "external_work_J,rupture_length_m,leak_m3_s,fracture_J,opening_m2"]
     with h5py.File(folder / "particles.h5", "w") as file:
         file["connectivity"] = numpy.arange(len(rest))
         for frame in range(frames):
@@ -77,7 +77,7 @@ def write(folder, frames=3, length_m=10e-3):
             damage = float(values["damage"].max())
             history.append(f"{step},{2.5e-3 * progress},{238e3 * min(1, 4 * progress)},{largest},{damage},"
                            f"{int(1e6 * damage)},{2e-4 * progress**3},{1e-3 * progress},{1.5e-3 * progress},"
-                           f"{8e-3 * max(0, progress - 0.3)},")
+                           f"{8e-3 * max(0, progress - 0.3)},,{3e-4 * progress**2},0")
     (folder / "particles.xdmf").write_text(
         '<?xml version="1.0"?>\n<Xdmf Version="3.0"><Domain>'
         '<Grid Name="run" GridType="Collection" CollectionType="Temporal">' + "\n".join(grids) + "</Grid></Domain></Xdmf>\n"

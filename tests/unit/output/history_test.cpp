@@ -14,7 +14,7 @@ using output::HistoryRow;
 const parallel::Communicator world = parallel::Communicator::world();
 const std::string header =
     "step,time_s,pressure_Pa,max_displacement_m,max_damage,broken_bonds,kinetic_J,strain_J,external_work_J,"
-    "rupture_length_m,leak_m3_s\n";
+    "rupture_length_m,leak_m3_s,fracture_J,opening_m2\n";
 
 HistoryRow row_of(long step) {
   return {.step = step, .time_s = 0.1 * static_cast<double>(step), .broken_bonds = 7};
@@ -23,13 +23,13 @@ HistoryRow row_of(long step) {
 TEST(History, HasOneRowPerOutputWithNumbersThatReadBack) {
   const test::TemporaryDirectory directory;
   History history(directory / "history.csv", world);
-  history.append({1, 0.1, 238e3, 1.0 / 3, 0.25, 12, 1e-9, 2e-300, -0.0, 4e-4, 5.5e-12});
+  history.append({1, 0.1, 238e3, 1.0 / 3, 0.25, 12, 1e-9, 2e-300, -0.0, 4e-4, 5.5e-12, 3e-7, 2e-8});
   history.append({.step = 2});
   // Read while it is open: a row is on disk once append returns.
   EXPECT_EQ(
       test::text_of(directory / "history.csv"),
       header +
-          "1,0.1,238000,0.3333333333333333,0.25,12,1e-09,2e-300,-0,0.0004,5.5e-12\n2,0,0,0,0,0,0,0,0,0,\n");
+          "1,0.1,238000,0.3333333333333333,0.25,12,1e-09,2e-300,-0,0.0004,5.5e-12,3e-07,2e-08\n2,0,0,0,0,0,0,0,0,0,,0,0\n");
 }
 
 TEST(History, ContinuesAfterARestartWithoutTheRowsBeyondIt) {
@@ -44,7 +44,7 @@ TEST(History, ContinuesAfterARestartWithoutTheRowsBeyondIt) {
   History history(path, world, 10);
   history.append(row_of(25));
   EXPECT_EQ(test::text_of(path),
-            header + "0,0,0,0,0,7,0,0,0,0,\n10,1,0,0,0,7,0,0,0,0,\n25,2.5,0,0,0,7,0,0,0,0,\n");
+            header + "0,0,0,0,0,7,0,0,0,0,,0,0\n10,1,0,0,0,7,0,0,0,0,,0,0\n25,2.5,0,0,0,7,0,0,0,0,,0,0\n");
 }
 
 TEST(History, ARestartWithoutAFileStartsOne) {
