@@ -43,6 +43,11 @@ def like(picture, colour, tolerance=12):
     return (numpy.abs(picture - colour) <= tolerance).all(axis=-1)
 
 
+def complaints(stderr):
+    """What a program said on stderr, but for the MPI library's remarks on containers without /sys."""
+    return "".join(line for line in stderr.splitlines(keepends=True) if not line.startswith("[hwloc/linux]"))
+
+
 class DriverTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -61,9 +66,10 @@ class DriverTest(unittest.TestCase):
         command += [DRIVER, str(self.images), renderer, str(frames), *map(str, scripts)]
         result = subprocess.run(command, env=ENVIRONMENT, cwd=self.folder, capture_output=True, text=True, timeout=50)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
+        errors = complaints(result.stderr)
         if status == 0:
-            self.assertEqual(result.stderr, "")
-        self.errors = result.stderr
+            self.assertEqual(errors, "")
+        self.errors = errors
         return result.stdout.splitlines()
 
     def failure(self, *scripts, ranks=1, frames=2):
@@ -250,7 +256,7 @@ class Afterwards(unittest.TestCase):
                 ["/usr/bin/python3", scripts / "plot_history.py", folder / "history.csv"],
             ):
                 result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
-                self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
+                self.assertEqual((result.returncode, complaints(result.stderr)), (0, ""), result.stdout)
             self.assertEqual(read(folder / "images" / "vessel_000050.png").shape, (720, 1280, 3))
             self.assertEqual(read(folder / "history.png").shape[1], 1080)
             self.assertGreater((folder / "movie.mp4").stat().st_size, 10_000)
