@@ -8,6 +8,8 @@
 #include <map>
 #include <vector>
 
+#include "output/numbered_picture.hpp"
+
 extern char** environ;
 
 namespace rhexis::app {
@@ -31,10 +33,8 @@ std::string make_movie(const std::filesystem::path& images, const std::filesyste
                        double frames_per_second) {
   std::map<std::string, int> series;
   for (const auto& entry : std::filesystem::directory_iterator(images)) {
-    if (entry.path().extension() != ".png") continue;
-    const std::string stem = entry.path().stem().string();
-    const std::size_t end = stem.find_last_not_of("0123456789");
-    if (end != std::string::npos && end + 1 < stem.size() && stem[end] == '_') ++series[stem.substr(0, end)];
+    const std::string name = output::picture_series(entry.path());
+    if (!name.empty()) ++series[name];
   }
   const auto longest = std::max_element(series.begin(), series.end(),
                                         [](const auto& a, const auto& b) { return a.second < b.second; });

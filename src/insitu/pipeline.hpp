@@ -1,9 +1,8 @@
 /// Pictures while the program runs: what the solver sees of ParaView Catalyst. Nothing here needs ParaView,
 /// which is loaded (as the plugin librhexis_catalyst.so) only when a pipeline is asked for.
 ///
-///     auto pipeline = insitu::load_pipeline({.scripts = {"/home/me/vessel.py"}, .image_directory =
-///     "/tmp/images"},
-///                                           parallel::Communicator::world());
+///     const insitu::Settings settings{.scripts = {"/home/me/vessel.py"}, .image_directory = "images"};
+///     auto pipeline = insitu::load_pipeline(settings, parallel::Communicator::world());
 ///     for (...) {                                       // every rank calls all of these, in the same order
 ///       if (pipeline->wants(source.step(), source.time_s())) pipeline->process(source);
 ///     }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "output/numbered_picture.hpp"
 #include "output/together.hpp"
 
 namespace rhexis::output {
@@ -83,14 +84,6 @@ void remove_files(const fs::path& directory, Predicate is_ours) {
   }
 }
 
-/// <name>_<digits>.png, as scripts name the pictures of a run.
-bool is_numbered_picture(const fs::path& path) {
-  if (path.extension() != ".png") return false;
-  const std::string stem = path.stem().string();
-  const std::size_t end = stem.find_last_not_of("0123456789");
-  return end != std::string::npos && end + 1 < stem.size() && stem[end] == '_';
-}
-
 }  // namespace
 
 void prepare_directory(const fs::path& directory, EarlierResults earlier,
@@ -103,7 +96,7 @@ void prepare_directory(const fs::path& directory, EarlierResults earlier,
     }
     if (earlier == EarlierResults::remove) {
       remove_files(directory, [](const fs::path& path) { return is_result(path.filename()); });
-      remove_files(directory / "images", is_numbered_picture);
+      remove_files(directory / "images", [](const fs::path& path) { return !picture_series(path).empty(); });
     }
     created.keep();
   });

@@ -27,8 +27,8 @@ struct HistoryRow {
   double opening_m2 = 0;
 };
 
-/// Appends rows, each handed to the system before the next step begins. Collective; only the root touches the file.
-/// Numbers are the shortest decimals that read back as the same double.
+/// Appends rows, each handed to the system before the next step begins. Collective; only the root touches the
+/// file. Numbers are the shortest decimals that read back as the same double.
 class History {
  public:
   /// Starts a new file. Throws RunError on all ranks if it cannot be written.

@@ -44,9 +44,9 @@ TEST(Directory, ResultsOfAnEarlierRunGoAndNothingElse) {
   const std::vector<std::string> ours = {
       "run.json",     "history.csv", "particles.xdmf",         "particles.h5",  "network.h5",
       "network.xdmf", "movie.mp4",   "images/vessel_0001.png", "run.json.part", "particles_from_000100.h5"};
-  const std::vector<std::string> others = {
-      "notes.txt",           "particles_from_me.txt", "other.h5", "picture.png", "images/notes.txt",
-      "images/deeper/a.png", "checkpoints/000100.h5"};
+  const std::vector<std::string> others = {"notes.txt",       "particles_from_me.txt", "other.h5",
+                                           "picture.png",     "images/notes.txt",      "images/deeper/a.png",
+                                           "images/mine.png", "checkpoints/000100.h5"};
   make_files(directory.path(), ours);
   make_files(directory.path(), others);
   prepare_directory(directory.path(), EarlierResults::keep, world);

@@ -26,10 +26,10 @@ TEST(History, HasOneRowPerOutputWithNumbersThatReadBack) {
   history.append({1, 0.1, 238e3, 1.0 / 3, 0.25, 12, 1e-9, 2e-300, -0.0, 4e-4, 5.5e-12, 3e-7, 2e-8});
   history.append({.step = 2});
   // Read while it is open: a row is on disk once append returns.
-  EXPECT_EQ(
-      test::text_of(directory / "history.csv"),
-      header +
-          "1,0.1,238000,0.3333333333333333,0.25,12,1e-09,2e-300,-0,0.0004,5.5e-12,3e-07,2e-08\n2,0,0,0,0,0,0,0,0,0,,0,0\n");
+  EXPECT_EQ(test::text_of(directory / "history.csv"),
+            header +
+                "1,0.1,238000,0.3333333333333333,0.25,12,1e-09,2e-300,-0,0.0004,5.5e-12,3e-07,2e-08\n2,0,0,0,"
+                "0,0,0,0,0,0,,0,0\n");
 }
 
 TEST(History, ContinuesAfterARestartWithoutTheRowsBeyondIt) {
