@@ -11,7 +11,6 @@
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "output/checkpoint.hpp"
 #include "output/directory.hpp"
 #include "peridynamics/schedule.hpp"
 

@@ -74,12 +74,6 @@ BondFamilies make_families(const Lattice& lattice) {
   return families;
 }
 
-std::int64_t BondFamilies::largest() const {
-  std::int64_t most = 0;
-  for (std::size_t c = 0; c + 1 < first.size(); ++c) most = std::max(most, count(c));
-  return most;
-}
-
 std::int64_t count_bonds(const Lattice& lattice, const BondFamilies& families, bool periodic) {
   std::int64_t directed = 0;
   for (const Bond& bond : families.bonds)

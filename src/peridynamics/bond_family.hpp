@@ -26,8 +26,6 @@ struct BondFamilies {
   int reach = 0;  ///< largest |row_offset|
 
   std::int64_t count(std::size_t column) const { return first[column + 1] - first[column]; }
-  /// Largest number of bonds of one column's interior rows.
-  std::int64_t largest() const;
 };
 
 /// Eq. (1)'s families, |xi| <= horizon.

@@ -154,6 +154,9 @@ class ColumnBody final : public Body {
 
   void make_bonds();
   void make_units();
+  double external_work() const {
+    return work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
+  }
   void follow_body();
   void fill_padded();
   BlockView<Real> view(Unit unit);
@@ -186,7 +189,7 @@ class ColumnBody final : public Body {
   long steps_ = 0;
   bool damaged_ = false;
   std::int64_t pending_broken_ = 0;  ///< broken while observing, to be told by the next step
-  std::int64_t intact_directed_ = 0;
+  std::int64_t born_directed_ = 0, intact_directed_ = 0;  ///< bonds of owned particles
   std::int64_t bond_evaluations_ = 0;
   ExactSum work_;
   double work_before_ = 0;  ///< J, done before a restart (on rank 0)

@@ -101,18 +101,10 @@ Totals ColumnBody<Law, Real>::totals() const {
   totals.kinetic = observed_.kinetic.value(comm_);
   totals.strain = observed_.strain.value(comm_);
   totals.fracture = observed_.fracture.value(comm_);
-  totals.external_work = work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
+  totals.external_work = external_work();
   totals.max_displacement = max_displacement();
   totals.max_damage = comm_.all_reduce(observed_.max_damage, parallel::Reduce::max);
-  std::int64_t born = 0;
-  for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
-    for (std::int32_t block = 0; block < domain_.blocks(); ++block) {
-      for (std::size_t b = 0; b < bonds_of({slot, block}).size(); ++b) {
-        born += std::popcount(domain_.partners(block, reference_bond({slot, block}, b).row_offset));
-      }
-    }
-  }
-  totals.broken_bonds = comm_.all_reduce(born - intact_directed_, parallel::Reduce::sum) / 2;
+  totals.broken_bonds = comm_.all_reduce(born_directed_ - intact_directed_, parallel::Reduce::sum) / 2;
   const std::int64_t first = comm_.all_reduce(observed_.ruptured_first, parallel::Reduce::min);
   const std::int64_t last = comm_.all_reduce(observed_.ruptured_last, parallel::Reduce::max);
   if (last >= first)

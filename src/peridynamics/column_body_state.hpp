@@ -39,6 +39,7 @@ void ColumnBody<Law, Real>::make_bonds() {
       }
     }
   }
+  born_directed_ = intact_directed_;
 }
 
 template <class Law, class Real>
@@ -105,7 +106,7 @@ BondWordLayout ColumnBody<Law, Real>::bond_word_layout() const {
 template <class Law, class Real>
 Body::Saved ColumnBody<Law, Real>::save() const {
   Saved saved{u_, v_, {}, first_kick_pending_, 0, load_speed_, frame_, steps_ % frame_interval};
-  saved.external_work = work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
+  saved.external_work = external_work();
   saved.words.reserve(intact_.size());
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
     for (std::size_t b = 0; b < bonds_of({slot, 0}).size(); ++b) {
