@@ -160,7 +160,7 @@ class ColumnBody final : public Body {
   void follow_body();
   void fill_padded();
   BlockView<Real> view(Unit unit);
-  std::pair<int, int> free_rows(Unit unit) const;
+  std::pair<int, int> free_rows(Unit unit, int component) const;
   void family_volumes(Unit unit, double (&intact)[block_rows], double (&whole)[block_rows]) const;
   bool has_ruptured(Unit unit) const;
   void step_unit(Unit unit, double pressure, double work_pressure, double kick, ThreadEvents& events);

@@ -15,18 +15,21 @@ BlockView<Real> ColumnBody<Law, Real>::view(Unit unit) {
           static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
 }
 
-/// Rows of a unit, [first, past), that ends do not hold.
+/// Rows of a unit, [first, past), whose motion along axis `component` the ends do not hold: clamped ends hold
+/// all components, sliding ones the axial one.
 template <class Law, class Real>
-std::pair<int, int> ColumnBody<Law, Real>::free_rows(Unit unit) const {
+std::pair<int, int> ColumnBody<Law, Real>::free_rows(Unit unit, int component) const {
   const int rows = domain_.rows_in(unit.block);
-  if (setup_.ends != EndCondition::clamped && setup_.ends != EndCondition::sliding) return {0, rows};
-  const auto held =
+  const bool held =
+      setup_.ends == EndCondition::clamped || (setup_.ends == EndCondition::sliding && component == 2);
+  if (!held) return {0, rows};
+  const auto held_rows =
       static_cast<std::int64_t>(std::ceil(setup_.end_length / setup_.lattice.row_spacing - 1e-9));
   const std::int64_t first = domain_.layout().first_row + unit.block * block_rows;
   const auto local = [&](std::int64_t row) {
     return static_cast<int>(std::clamp<std::int64_t>(row - first, 0, rows));
   };
-  return {local(held), std::max(local(held), local(domain_.layout().rows - held))};
+  return {local(held_rows), std::max(local(held_rows), local(domain_.layout().rows - held_rows))};
 }
 
 /// Sums of V_j / spacing^3 over each row's unbroken bonds and over all it was born with.
@@ -92,15 +95,11 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
   const double bond_acceleration = setup_.bond_constant * volume / setup_.density;
   const double dt = setup_.time_step;
   const double fastest = 2 * lattice.spacing / dt + 4 * load_speed_;
-  const auto [first_free, past_free] = free_rows(unit);
   const auto next_u = next();
   bool sane = true;
   double work = 0;
   for (int k = 0; k < 3; ++k) {
-    // Sliding ends hold the axial component only.
-    const bool held = setup_.ends == EndCondition::clamped || k == 2;
-    const int first = held ? first_free : 0;
-    const int past = held ? past_free : domain_.rows_in(unit.block);
+    const auto [first, past] = free_rows(unit, k);
     double* u = u_[k].data() + particle(unit);
     double* v = v_[k].data() + particle(unit);
     Real* out = next_u[k] + padded_place(unit);
