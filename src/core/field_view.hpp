@@ -10,11 +10,15 @@
 
 namespace rhexis {
 
+/// What a field's values belong to: the points, or the lines (cells) between them.
+enum class Centring { point, cell };
+
 /// What a field is, before anybody pays for its values.
 struct FieldInfo {
   std::string_view name;  ///< as in files and pictures, e.g. "displacement"
   std::string_view unit;  ///< SI, UDUNITS spelling, e.g. "m"; "1" for a ratio
   int components = 1;     ///< 1 (scalar) or 3 (vector)
+  Centring centring = Centring::point;
 };
 
 /// Borrowed values of a field on this rank's points: `components` arrays of `count` doubles each (structure
@@ -56,6 +60,24 @@ class PointSource {
   /// Deformed positions, named "position", unit m, three components.
   virtual FieldView positions() = 0;
   /// A field by its name; throws std::out_of_range for a name that `fields()` does not list.
+  virtual FieldView field(std::string_view name) = 0;
+  virtual std::vector<Annotation> annotations() const = 0;
+};
+
+/// Straight lines between points at one moment, such as the vessels of a network between their junctions.
+/// Every rank has points and lines of its own (perhaps none); lines refer to points of the same rank.
+class LineSource {
+ public:
+  virtual ~LineSource() = default;
+  virtual long step() const = 0;
+  virtual double time_s() const = 0;
+  /// Of this rank's points, named "position", unit m, three components.
+  virtual FieldView positions() = 0;
+  /// Two point indices a line: [2 L].
+  virtual std::span<const std::int64_t> connectivity() = 0;
+  virtual std::span<const FieldInfo> fields() const = 0;
+  /// A field by its name, on points or lines as its centring says; throws std::out_of_range for a name that
+  /// `fields()` does not list.
   virtual FieldView field(std::string_view name) = 0;
   virtual std::vector<Annotation> annotations() const = 0;
 };

@@ -17,9 +17,11 @@ MAY_INCLUDE = {
     "parallel": set(),
     "input": set(),
     "peridynamics": {"parallel"},
+    "network": {"parallel"},
+    "hemodynamics": {"network", "parallel"},
     "output": {"parallel"},
     "insitu": {"parallel"},
-    "app": {"parallel", "input", "peridynamics", "output", "insitu"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "output", "insitu"},
 }
 
 

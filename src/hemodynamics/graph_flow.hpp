@@ -1,0 +1,45 @@
+/// Steady flow in an explicit network: Eq. (9) in every vessel, conservation of blood at every junction
+/// (Sec. 3.3).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "network/graph.hpp"
+
+namespace rhexis::hemodynamics {
+
+/// How what is left after reduction (see reduction.hpp) is solved. `elimination`: nothing may be left, as on
+/// trees and series-parallel networks.
+enum class GraphSolver : std::uint8_t { automatic, elimination, ldlt, approximate_cholesky, jacobi, amg };
+
+std::string_view name_of(GraphSolver solver);
+
+struct GraphSolverOptions {
+  GraphSolver solver = GraphSolver::automatic;
+  double imbalance = 1e-10;             ///< stop: worst junction's imbalance relative to the inflow
+  std::int64_t max_iterations = 20000;  ///< of an iterative solver, in all
+};
+
+struct GraphFlow {
+  std::vector<double>
+      pressure;  ///< [J] relative to atmosphere, Pa; nan at a junction without vessels and condition
+  std::vector<double> flow;  ///< [V] m3/s, positive along from -> to
+  double inflow = 0;         ///< m3/s, sum of all flows into the network through its conditions
+  double max_imbalance = 0;  ///< of any junction, relative to `inflow`
+  GraphSolver solver = GraphSolver::automatic;  ///< that was used
+  std::int64_t iterations = 0;                  ///< of an iterative solver, in all
+  std::int64_t core_junctions = 0;              ///< unknowns left after reduction
+};
+
+/// Pressures and flows for conductances [V] in m3/(s Pa). `conductance` is consumed (its memory is reused).
+/// Throws InputError, naming junction or vessel, for: a component that has vessels but no pressure condition;
+/// a conductance that is not positive and finite; a vessel from a junction to itself; two conditions at one
+/// junction; solver `elimination` where junctions are left. Throws RunError where the imbalance asked for is
+/// not reached.
+GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,
+                     std::span<const network::Condition> conditions, const GraphSolverOptions& options = {});
+
+}  // namespace rhexis::hemodynamics

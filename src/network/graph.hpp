@@ -1,0 +1,48 @@
+/// A vascular network as an explicit graph: junctions joined by vessels (Sec. 3.3). Any degree, loops,
+/// several components, dead ends and isolated junctions are allowed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rhexis::network {
+
+enum class VesselKind : std::uint8_t { artery = 0, vein = 1, unknown = 2 };
+
+/// Arrays over J junctions and V vessels; those marked optional are empty where nobody knows their values.
+struct Graph {
+  std::size_t junctions = 0;    ///< J
+  std::vector<double> x, y, z;  ///< [J] position, m; optional
+  std::vector<std::uint32_t> from,
+      to;  ///< [V] junctions that a vessel joins; blood flowing from -> to counts as positive
+  std::vector<double> radius, length;      ///< [V] of the lumen, m
+  std::vector<double> wall_thickness;      ///< [V] m; optional: the wall rule gives it
+  std::vector<VesselKind> kind;            ///< [V] optional
+  std::vector<std::int8_t> generation;     ///< [V] optional
+  std::vector<std::string> junction_name;  ///< [J] as in the user's file; optional: the index is the name
+  std::vector<std::string> vessel_name;    ///< [V] as in the user's file; optional: the index is the name
+
+  std::size_t vessels() const { return from.size(); }
+  std::string name_of_junction(std::size_t j) const;
+  std::string name_of_vessel(std::size_t v) const;
+};
+
+/// What is known at a junction. A pressure may lie behind a resistance (a peripheral bed that is not
+/// modelled): flow into it is (p_junction - value) / resistance.
+struct Condition {
+  enum class Kind : std::uint8_t { pressure, flow };
+  std::uint32_t junction = 0;
+  Kind kind = Kind::pressure;
+  double value = 0;       ///< pressure relative to atmosphere, Pa; or flow into the network, m3/s
+  double resistance = 0;  ///< Pa s/m3, of a pressure condition; 0: the pressure is the junction's own
+};
+
+/// A network and what its file says of its boundary.
+struct BoundedGraph {
+  Graph graph;
+  std::vector<Condition> conditions;
+};
+
+}  // namespace rhexis::network
