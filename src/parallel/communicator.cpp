@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "parallel/threads.hpp"
+
 namespace rhexis::parallel {
 namespace {
 
@@ -117,6 +119,10 @@ std::string Communicator::first_non_empty(const std::string& text) const {
 
 int thread_count() {
   return omp_get_max_threads();
+}
+
+int thread_number() {
+  return omp_get_thread_num();
 }
 
 }  // namespace rhexis::parallel

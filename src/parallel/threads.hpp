@@ -5,6 +5,9 @@
 
 namespace rhexis::parallel {
 
+/// Of the calling thread, within the parallel region that it is in.
+int thread_number();
+
 /// Calls `work(thread, begin, end)` once on each thread, with contiguous shares of [0, count) that are the
 /// same in every call: a thread meets the same data each step. `work` must not throw.
 template <class Work>
@@ -16,6 +19,14 @@ void for_each_share(int threads, std::size_t count, const Work& work) {
     };
     work(t, share(t), share(t + 1));
   }
+}
+
+/// Calls `work(thread, i)` for every i of [0, count), each as a thread becomes free, on threads [0, threads).
+/// `work` must not throw.
+template <class Work>
+void for_each_task(int threads, std::size_t count, const Work& work) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < count; ++i) work(thread_number(), i);
 }
 
 }  // namespace rhexis::parallel

@@ -1,0 +1,131 @@
+#include "network/tree_rules.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+
+namespace rhexis::network {
+
+double TreeRules::wider_share(double gamma) const {
+  return 1 / (1 + std::pow(gamma, exponent / 2));
+}
+
+double TreeRules::length(int generation, double radius) const {
+  if (!length_by_radius.empty()) return length_at(radius);
+  const double ratio = length_ratio_by_generation.empty()
+                           ? length_ratio
+                           : length_ratio_by_generation[static_cast<std::size_t>(generation)];
+  return ratio * radius;
+}
+
+double exponent_between(double root, double terminal, int generations) {
+  return (generations - 1) * std::log(2.0) / std::log(root / terminal);
+}
+
+ParameterList declare(TreeParameters& p) {
+  const char* recursion = "Sec. 3.3";
+  return {
+      {"tree.generations",
+       &p.generations,
+       "1",
+       {},
+       "Generations k of each tree: 2 (2^k - 1) vessels in all, 34 billion for 34.",
+       recursion,
+       Range::between(1, TreeRules::most_generations)},
+      {"tree.root_radius", &p.root_radius, "m", "\"12.5 mm\"", "Lumen radius of the first artery.", recursion,
+       Range::positive()},
+      {"tree.radius_exponent", &p.exponent, "1", "\"auto\"",
+       "xi of r^xi = r1^xi + r2^xi; \"auto\": from terminal_radius, else 2.76.", "Murray 1926; Olufsen 1999",
+       Range::between(1, 10)},
+      {"tree.terminal_radius", &p.terminal_radius, "m", "\"auto\"",
+       "Lumen radius of the last vessels of a symmetric tree, from which xi follows.", "", Range::positive()},
+      {"tree.asymmetry", &p.asymmetry, "1", "1",
+       "gamma = (r2/r1)^2 of two daughters; 1: both alike. Of the most symmetric ones where splits are "
+       "random.",
+       "Olufsen 1999", Range::between(1e-4, 1)},
+      {"tree.least_asymmetry", &p.least_asymmetry, "1", "\"auto\"",
+       "gamma of the most unequal daughters: every bifurcation draws its share evenly between the two; "
+       "\"auto\": no "
+       "drawing.",
+       "", Range::between(1e-4, 1)},
+      {"tree.seed", &p.seed, "1", "1", "Of the random numbers of splits and lengths.", "",
+       Range::not_negative()},
+      {"tree.length_ratio", &p.length_ratio, "1", "50", "Length of a vessel in lumen radii, lambda.",
+       "Olufsen 1999", Range::positive()},
+      {"tree.length_ratio_by_generation", &p.length_ratio_by_generation, "1", "[]",
+       "lambda for each generation, the root's first, instead of one for all.", "", Range::positive()},
+      {"tree.length_by_radius", &p.length_by_radius, "m, m", "[]",
+       "Instead: a curve of [radius, length], straight between its points in logarithms.", "",
+       Range::positive()},
+      {"tree.length_spread", &p.length_spread, "1", "0",
+       "Each vessel's own length: evenly random within (1 - spread) to (1 + spread) times the rule's.", "",
+       Range::between(0, 0.9)},
+      {"tree.vein_radius_ratio", &p.vein_radius_ratio, "1", "1",
+       "Lumen radius of a vein over that of the artery that it mirrors.", "", Range::between(0.1, 10)},
+      {"tree.layout",
+       &p.layout,
+       "",
+       "\"spatial\"",
+       "Positions: bifurcations all in one plane, or in two planes by turns.",
+       "",
+       {},
+       {"spatial", "planar"}},
+  };
+}
+
+TreeRules rules_from(const TreeParameters& p, const Wall& artery_wall, const Wall& vein_wall) {
+  TreeRules rules;
+  rules.generations = static_cast<int>(p.generations);
+  rules.root_radius = p.root_radius;
+  if (p.exponent && p.terminal_radius) {
+    throw InputError("give either tree.radius_exponent or tree.terminal_radius, not both",
+                     "tree.terminal_radius");
+  }
+  if (p.exponent) rules.exponent = *p.exponent;
+  if (p.terminal_radius) {
+    if (*p.terminal_radius >= p.root_radius) {
+      throw InputError("must be below tree.root_radius, " + quantity(p.root_radius, "m"),
+                       "tree.terminal_radius");
+    }
+    if (p.generations < 2) throw InputError("needs two generations at least", "tree.terminal_radius");
+    rules.exponent = exponent_between(p.root_radius, *p.terminal_radius, rules.generations);
+    if (rules.exponent < 1 || rules.exponent > 10) {
+      throw InputError("this makes xi " + text(rules.exponent) + ", which is not between 1 and 10",
+                       "tree.terminal_radius");
+    }
+  }
+  rules.asymmetry = p.asymmetry;
+  rules.least_asymmetry = p.least_asymmetry.value_or(p.asymmetry);
+  if (rules.least_asymmetry > rules.asymmetry) {
+    throw InputError("must not be above tree.asymmetry, " + text(p.asymmetry), "tree.least_asymmetry");
+  }
+  rules.seed = static_cast<std::uint64_t>(p.seed);
+  rules.length_ratio = p.length_ratio;
+  const std::size_t given = p.length_ratio_by_generation.size();
+  if (given != 0 && given != static_cast<std::size_t>(p.generations)) {
+    throw InputError("has " + std::to_string(given) + " values; tree.generations asks for " +
+                         std::to_string(p.generations),
+                     "tree.length_ratio_by_generation");
+  }
+  if (given != 0 && !p.length_by_radius.empty()) {
+    throw InputError("give either this or tree.length_ratio_by_generation, not both",
+                     "tree.length_by_radius");
+  }
+  if (p.length_by_radius.size() == 1) throw InputError("needs two points at least", "tree.length_by_radius");
+  for (std::size_t i = 1; i < p.length_by_radius.size(); ++i) {
+    if (!(p.length_by_radius[i - 1].first < p.length_by_radius[i].first)) {
+      throw InputError("radii must increase", "tree.length_by_radius");
+    }
+  }
+  rules.length_ratio_by_generation = p.length_ratio_by_generation;
+  rules.length_by_radius = p.length_by_radius;
+  rules.length_spread = p.length_spread;
+  rules.vein_radius_ratio = p.vein_radius_ratio;
+  rules.artery_wall = artery_wall;
+  rules.vein_wall = vein_wall;
+  rules.layout = p.layout == "planar" ? TreeLayout::planar : TreeLayout::spatial;
+  return rules;
+}
+
+}  // namespace rhexis::network
