@@ -23,17 +23,7 @@ TreeFlow::TreeFlow(const network::TreePair& tree, const Viscosity& viscosity, co
   }
   const int k = tree.generations();
   if (alike_) {
-    // One subtree of one vessel a generation, from the last upwards.
-    alike_below_.resize(static_cast<std::size_t>(k));
-    Subtree vessel(law_, 1, true);
-    for (int g = k - 1; g >= 0; --g) {
-      vessel.grow(std::uint64_t{1} << g, std::ldexp(1.0, -g));
-      const bool last = g == k - 1;
-      alike_below_[static_cast<std::size_t>(g)] =
-          vessel.artery_resistance(1) + vessel.vein_resistance(1) +
-          (last ? 0.0 : alike_below_[static_cast<std::size_t>(g) + 1] / 2);
-    }
-    resistance_ = alike_below_[0];
+    rise_alike();
   } else {
     bottom_depth_ = std::min(k, std::max(usual_bottom, k - most_top - most_middle));
     top_depth_ = std::min(k - bottom_depth_, most_top);
@@ -48,6 +38,20 @@ TreeFlow::TreeFlow(const network::TreePair& tree, const Viscosity& viscosity, co
   root_.artery_pressure = boundary.inlet_pressure ? inlet : outlet + root_.flow * resistance_;
   root_.vein_pressure = boundary.outlet_pressure ? outlet : inlet - root_.flow * resistance_;
   if (!alike_) top_->fall(root_);
+}
+
+/// One vessel a generation, from the last upwards.
+void TreeFlow::rise_alike() {
+  const int k = tree_.generations();
+  alike_below_.resize(static_cast<std::size_t>(k));
+  Subtree vessel(law_, 1, true);
+  for (int g = k - 1; g >= 0; --g) {
+    const auto at = static_cast<std::size_t>(g);
+    vessel.grow(std::uint64_t{1} << g, std::ldexp(1.0, -g));
+    alike_below_[at] = vessel.artery_resistance(1) + vessel.vein_resistance(1) +
+                       (g == k - 1 ? 0.0 : alike_below_[at + 1] / 2);
+  }
+  resistance_ = alike_below_[0];
 }
 
 void TreeFlow::rise_branches() {
@@ -146,104 +150,135 @@ void TreeFlow::sweep_alike(VesselConsumer& consumer) const {
   }
 }
 
-/// Calls visit(subtree, local place) for the vessels on the way from the root to `place`, on the rank that
-/// knows them: the first for the top, the branch's owner below.
-template <class Visit>
-void TreeFlow::visit(std::uint64_t place, const Visit& visit) const {
-  const int generation = network::TreePair::generation_of(place);
-  const auto visit_within = [&](const Subtree& subtree, int first_generation, int depth) {
-    for (int l = 0; l < depth && first_generation + l <= generation; ++l) {
-      const std::uint64_t ancestor = place >> (generation - first_generation - l);
-      visit(subtree, static_cast<std::size_t>(ancestor - (subtree.place() << l) + (std::uint64_t{1} << l)));
-    }
+/// Finds single places; keeps the subtrees that it grew last.
+class TreeFlow::Reader {
+ public:
+  explicit Reader(const TreeFlow& flow)
+      : flow_(flow),
+        middle_(flow.law_, flow.middle_depth_, true),
+        bottom_(flow.law_, flow.bottom_depth_, false) {}
+
+  struct Found {
+    const Subtree* subtree = nullptr;  ///< null on ranks that do not have the place
+    std::size_t n = 0;                 ///< local place in it
   };
-  if (comm_.is_root()) visit_within(*top_, 0, top_depth_);
-  if (generation < top_depth_) return;
-  const auto branch = static_cast<std::size_t>((place >> (generation - top_depth_)) - branches());
-  if (!owns(branch)) return;
-  Subtree middle(law_, middle_depth_, true);
-  grow_middle(middle, branch);
-  visit_within(middle, top_depth_, middle_depth_);
-  const int bottom_generation = top_depth_ + middle_depth_;
-  if (generation < bottom_generation) return;
-  Subtree bottom(law_, bottom_depth_, false);
-  const std::uint64_t bottom_place = place >> (generation - bottom_generation);
-  const SubtreeState state = middle.daughter(bottom_place - (middle.place() << middle_depth_));
-  bottom.grow(state.place, state.capacity);
-  bottom.rise();
-  bottom.fall(state);
-  visit_within(bottom, bottom_generation, bottom_depth_);
+
+  Found find(std::uint64_t place) {
+    const int generation = network::TreePair::generation_of(place);
+    const int middle_generation = flow_.top_depth_,
+              bottom_generation = middle_generation + flow_.middle_depth_;
+    if (generation < middle_generation) return flow_.comm_.is_root() ? within(*flow_.top_, place) : Found{};
+    const auto branch =
+        static_cast<std::size_t>((place >> (generation - middle_generation)) - flow_.branches());
+    if (!flow_.owns(branch)) return {};
+    if (!grown_ || branch != branch_) {
+      flow_.grow_middle(middle_, branch);
+      grown_ = true;
+      branch_ = branch;
+      bottom_place_ = 0;
+    }
+    if (generation < bottom_generation) return within(middle_, place);
+    const std::uint64_t bottom_place = place >> (generation - bottom_generation);
+    if (bottom_place != bottom_place_) {
+      const SubtreeState state =
+          middle_.daughter(static_cast<std::size_t>(bottom_place - (middle_.place() << middle_.depth())));
+      bottom_.grow(state.place, state.capacity);
+      bottom_.rise();
+      bottom_.fall(state);
+      bottom_place_ = bottom_place;
+    }
+    return within(bottom_, place);
+  }
+
+ private:
+  static Found within(const Subtree& subtree, std::uint64_t place) {
+    const int l = network::TreePair::generation_of(place) - network::TreePair::generation_of(subtree.place());
+    return {&subtree, static_cast<std::size_t>(place - (subtree.place() << l) + (std::uint64_t{1} << l))};
+  }
+
+  const TreeFlow& flow_;
+  Subtree middle_, bottom_;
+  bool grown_ = false;
+  std::size_t branch_ = 0;
+  std::uint64_t bottom_place_ = 0;
+};
+
+std::vector<PlaceFlow> TreeFlow::at(const std::vector<std::uint64_t>& places) const {
+  if (alike_) return at_alike(places);
+  std::vector<double> values(5 * places.size(), 0.0);
+  Reader reader(*this);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (const auto found = reader.find(places[i]); found.subtree) {
+      found.subtree->state_of(found.n, values.data() + 5 * i);
+    }
+  }
+  comm_.all_reduce(values, parallel::Reduce::sum);  // exact: every place has one owner
+  std::vector<PlaceFlow> flows;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double* v = values.data() + 5 * i;
+    flows.push_back({v[0], v[1], v[2], v[3], v[4]});
+  }
+  return flows;
+}
+
+std::vector<PlaceFlow> TreeFlow::at_alike(const std::vector<std::uint64_t>& places) const {
+  struct Keeper : VesselConsumer {
+    std::vector<PlaceFlow> generations;
+    void consume(const VesselBlock& b) override {
+      generations.push_back({*b.flow, *b.artery_near, *b.artery_far, *b.vein_near, *b.vein_far});
+    }
+  } keeper;
+  sweep_alike(keeper);
+  std::vector<PlaceFlow> flows;
+  for (const std::uint64_t place : places) {
+    flows.push_back(keeper.generations[static_cast<std::size_t>(network::TreePair::generation_of(place))]);
+  }
+  return flows;
 }
 
 VesselFlow TreeFlow::query(std::uint64_t id) const {
   if (id >= tree_.vessels()) tree_.vessel(id);  // throws
-  if (alike_) return query_alike(id);
-  const std::uint64_t place = network::TreePair::place_of(id);
-  double values[5] = {};  // flow, pressures
-  visit(place, [&](const Subtree& subtree, std::size_t n) {
-    if (subtree.global_place(n) == place) subtree.state_of(n, values);
-  });
-  comm_.all_reduce(values, parallel::Reduce::sum);
-  if (network::TreePair::kind_of(id) == network::VesselKind::artery) return {values[0], values[1], values[2]};
-  return {values[0], values[4], values[3]};
-}
-
-VesselFlow TreeFlow::query_alike(std::uint64_t id) const {
-  struct Finder : VesselConsumer {
-    std::uint64_t id = 0;
-    VesselFlow found;
-    void consume(const VesselBlock& b) override {
-      if (b.generation != network::TreePair::generation_of(network::TreePair::place_of(id))) return;
-      const bool artery = network::TreePair::kind_of(id) == network::VesselKind::artery;
-      found = artery ? VesselFlow{*b.flow, *b.artery_near, *b.artery_far}
-                     : VesselFlow{*b.flow, *b.vein_far, *b.vein_near};
-    }
-  } finder;
-  finder.id = id;
-  sweep_alike(finder);
-  return finder.found;
+  const PlaceFlow p = at({network::TreePair::place_of(id)}).front();
+  if (network::TreePair::kind_of(id) == network::VesselKind::artery)
+    return {p.flow, p.artery_near, p.artery_far};
+  return {p.flow, p.vein_far, p.vein_near};
 }
 
 TreeFlow::Path TreeFlow::path_to(std::uint64_t place) const {
   const auto length = static_cast<std::size_t>(network::TreePair::generation_of(place)) + 1;
-  std::vector<double> values(3 * length + 1, 0.0);  // artery, vein, the other daughter's; below the last
-  const auto note = [&](std::size_t g, double artery, double vein, double beside) {
-    values[3 * g] = artery;
-    values[3 * g + 1] = vein;
-    values[3 * g + 2] = beside;
-  };
+  const bool last_generation = static_cast<int>(length) == tree_.generations();
+  std::vector<double> artery(length, 0.0), vein(length, 0.0), beside(length, 0.0);
   if (alike_) {
     Subtree vessel(law_, 1, true);
     for (std::size_t g = 0; g < length; ++g) {
       vessel.grow(std::uint64_t{1} << g, std::ldexp(1.0, -static_cast<int>(g)));
-      note(g, vessel.artery_resistance(1), vessel.vein_resistance(1),
-           g + 1 < alike_below_.size() ? alike_below_[g + 1] : 0);
+      artery[g] = vessel.artery_resistance(1);
+      vein[g] = vessel.vein_resistance(1);
+      if (g + 1 < alike_below_.size()) beside[g] = alike_below_[g + 1] / (g + 1 < length ? 1 : 2);
     }
-    if (length < alike_below_.size()) values[3 * length] = alike_below_[length] / 2;
   } else {
-    visit(place, [&](const Subtree& subtree, std::size_t n) {
-      const auto g = static_cast<std::size_t>(network::TreePair::generation_of(subtree.global_place(n)));
-      const bool last = g + 1 == length;
-      const bool leaf = static_cast<int>(g) + 1 == tree_.generations();
-      double beside = 0;
-      if (!last) {
-        const std::uint64_t next = place >> (length - 2 - g);
-        beside = subtree.below(2 * n + (next % 2 == 0 ? 1 : 0));
-      } else if (!leaf) {
-        const double one = subtree.below(2 * n), two = subtree.below(2 * n + 1);
-        values[3 * length] = one * two / (one + two);
-      }
-      note(g, subtree.artery_resistance(n), subtree.vein_resistance(n), beside);
-    });
-    comm_.all_reduce(values, parallel::Reduce::sum);
+    Reader reader(*this);
+    for (std::size_t g = 0; g < length; ++g) {
+      const auto [subtree, n] = reader.find(place >> (length - 1 - g));
+      if (!subtree) continue;
+      artery[g] = subtree->artery_resistance(n);
+      vein[g] = subtree->vein_resistance(n);
+    }
+    for (std::size_t g = 0; g + 1 < length; ++g) {
+      const std::uint64_t sister = (place >> (length - 2 - g)) ^ 1;
+      if (const auto found = reader.find(sister); found.subtree) beside[g] = found.subtree->below(found.n);
+    }
+    for (std::uint64_t daughter = 2 * place; !last_generation && daughter < 2 * place + 2; ++daughter) {
+      // Two in parallel: conductances add.
+      if (const auto found = reader.find(daughter); found.subtree)
+        beside[length - 1] += 1 / found.subtree->below(found.n);
+    }
+    for (auto* values : {&artery, &vein, &beside}) comm_.all_reduce(*values, parallel::Reduce::sum);
+    if (!last_generation) beside[length - 1] = 1 / beside[length - 1];
   }
-  Path path;
-  for (std::size_t g = 0; g < length; ++g) {
-    path.artery.push_back(values[3 * g]);
-    path.vein.push_back(values[3 * g + 1]);
-    if (g + 1 < length) path.beside.push_back(values[3 * g + 2]);
-  }
-  path.below = values[3 * length];
+  Path path{std::move(artery), std::move(vein), std::move(beside), 0};
+  path.below = path.beside.back();
+  path.beside.pop_back();
   return path;
 }
 

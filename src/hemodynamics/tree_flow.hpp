@@ -35,6 +35,13 @@ struct VesselFlow {
   double pressure_from = 0, pressure_to = 0;  ///< Pa, at its ends in the direction of flow
 };
 
+/// Artery and vein at one place of the tree.
+struct PlaceFlow {
+  double flow = 0;                         ///< m3/s, through both
+  double artery_near = 0, artery_far = 0;  ///< Pa; near: the end next to the root
+  double vein_near = 0, vein_far = 0;
+};
+
 /// Gets the vessels of a sweep. Called by one thread.
 class VesselConsumer {
  public:
@@ -61,7 +68,10 @@ class TreeFlow {
   /// (`consumer_of(thread)`); each rank sees the vessels that it owns, the first rank those of the top too.
   void sweep(const std::function<VesselConsumer&(int thread)>& consumer_of) const;
 
-  /// A vessel by its id. Collective; O(2^11).
+  /// Artery and vein at each of some places, in their order. Collective; cheapest where neighbours in the
+  /// list are neighbours in the tree: up to 2^12 places are grown for each that is not near the one before.
+  std::vector<PlaceFlow> at(const std::vector<std::uint64_t>& places) const;
+  /// A vessel by its id. Collective. Throws InputError where there is none.
   VesselFlow query(std::uint64_t id) const;
 
   /// Resistances that the way from the root to `place` meets, for re-solving it when something on it changes.
@@ -74,14 +84,15 @@ class TreeFlow {
   Path path_to(std::uint64_t place) const;
 
  private:
+  class Reader;
+
+  void rise_alike();
   void rise_branches();
   double rise_branch(Subtree& middle, Subtree& bottom, std::size_t branch);
   void grow_middle(Subtree& middle, std::size_t branch) const;
   void sweep_branch(Subtree& middle, Subtree& bottom, std::size_t branch, VesselConsumer& consumer) const;
   void sweep_alike(VesselConsumer& consumer) const;
-  VesselFlow query_alike(std::uint64_t id) const;
-  template <class Visit>
-  void visit(std::uint64_t place, const Visit& visit) const;
+  std::vector<PlaceFlow> at_alike(const std::vector<std::uint64_t>& places) const;
   bool owns(std::size_t branch) const { return branch >= first_branch_ && branch < past_branch_; }
   std::size_t branches() const { return std::size_t{1} << top_depth_; }
   SubtreeState branch_state(std::size_t branch) const { return top_->daughter(branch); }

@@ -125,8 +125,11 @@ struct Context {
   double radius_scale = 1, flow_scale = 1, pressure_scale = 1, stress_scale = 1, length_scale = 1;
 };
 
-/// Scale of sums that grow with the number of vessels, so that a whole generation fits one term of an ExactSum.
-double many_in(int generation) { return std::ldexp(1.0, std::max(0, generation - 20)); }
+/// Scale of sums that grow with the number of vessels, so that a whole generation fits one term of an
+/// ExactSum.
+double many_in(int generation) {
+  return std::ldexp(1.0, std::max(0, generation - 20));
+}
 
 struct GenerationGatherer {
   GenerationGatherer(const Context& c, double many)

@@ -1,0 +1,35 @@
+/// Input keys of the sections blood and flow.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parameter.hpp"
+#include "hemodynamics/tree_flow.hpp"
+#include "hemodynamics/viscosity.hpp"
+
+namespace rhexis::hemodynamics {
+
+struct Parameters {
+  std::string viscosity_law;  ///< "constant" | "in_vitro" | "in_vivo"
+  Viscosity viscosity;
+  double density = 0;  ///< kg/m3
+  bool phase_separation = false;
+  double phase_tolerance = 0;
+  std::int64_t phase_iterations = 0;
+  std::optional<double> inlet_pressure, outlet_pressure;  ///< Pa
+  std::optional<double> inlet_flow;                       ///< m3/s
+  std::vector<double> acceleration;                       ///< m/s2, none or three components
+};
+
+ParameterList declare(Parameters& p);
+
+/// Completes `p` (the law's name). Throws InputError for values that do not fit together.
+void resolve(Parameters& p);
+
+/// The two conditions of a tree; throws InputError where they are not two.
+TreeBoundary tree_boundary(const Parameters& p);
+
+}  // namespace rhexis::hemodynamics

@@ -1,0 +1,44 @@
+/// Input keys of the sections network, tree and wall.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parameter.hpp"
+#include "network/tree_rules.hpp"
+#include "network/wall.hpp"
+
+namespace rhexis::network {
+
+struct WallParameters {
+  std::string artery_rule, vein_rule;
+  double artery_ratio = 0, vein_ratio = 0;
+  double young_modulus = 0;  ///< Pa
+  double poisson_ratio = 0;
+};
+
+struct Parameters {
+  std::string source;  ///< "tree" | "file"
+  std::vector<std::string> files;
+  std::string file_length_unit;
+  std::string tier;  ///< "auto" | "implicit" | "explicit" | "distributed"
+  std::string solver;
+  double imbalance = 0;
+  std::int64_t max_iterations = 0;
+  bool statistics = true;
+  std::vector<std::string> query;
+  std::int64_t shown_vessels = 0;
+  std::string shown_subtree;
+  TreeParameters tree;
+  WallParameters wall;
+};
+
+/// The keys, bound to `p`.
+ParameterList declare(Parameters& p);
+
+Wall artery_wall(const WallParameters& p);
+Wall vein_wall(const WallParameters& p);
+
+}  // namespace rhexis::network
