@@ -1,0 +1,79 @@
+/// The vessels of a network as lines with fields, for files and pictures.
+///
+/// Points: `pressure` (Pa, relative to atmosphere). Lines: `flow` (m3/s, along the line), `radius` (m),
+/// `generation`
+/// (-1: unknown), `kind` (0 artery, 1 vein, 2 unknown), `wall_shear_stress` (Pa), `hoop_strain` (at the
+/// lumen, under the mean of both ends' pressures; network/wall.hpp), `haematocrit`, `vessel` (id or number).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/field_view.hpp"
+#include "hemodynamics/graph_flow.hpp"
+#include "hemodynamics/hydrostatic.hpp"
+#include "hemodynamics/tree_flow.hpp"
+#include "hemodynamics/viscosity.hpp"
+#include "network/graph.hpp"
+#include "network/tree_selection.hpp"
+#include "network/wall.hpp"
+
+namespace rhexis::hemodynamics {
+
+/// What turns pressures and radii into strain and shear.
+struct VesselMechanics {
+  network::Wall artery_wall, vein_wall;
+  double young_modulus = 1, poisson_ratio = 0.25;
+  Viscosity viscosity;
+  Hydrostatic hydrostatic;
+};
+
+class VesselLines : public LineSource {
+ public:
+  /// Empty: a rank that shows nothing.
+  VesselLines() = default;
+
+  /// Places of a tree with their flow, artery and vein each.
+  static VesselLines of_tree(const TreeFlow& flow, std::span<const network::SelectedPlace> places,
+                             std::span<const PlaceFlow> flows, const VesselMechanics& mechanics);
+  /// The vessels of a graph that are listed. `haematocrit` [V] or empty.
+  static VesselLines of_graph(const network::Graph& graph, const GraphFlow& flow,
+                              std::span<const std::uint32_t> vessels, std::span<const double> haematocrit,
+                              const VesselMechanics& mechanics);
+
+  void annotate(std::vector<Annotation> notes) { annotations_ = std::move(notes); }
+  std::size_t count() const { return connectivity_.size() / 2; }
+
+  long step() const override { return 0; }
+  double time_s() const override { return 0; }
+  FieldView positions() override;
+  std::span<const std::int64_t> connectivity() override { return connectivity_; }
+  std::span<const FieldInfo> fields() const override;
+  FieldView field(std::string_view name) override;
+  std::vector<Annotation> annotations() const override { return annotations_; }
+
+ private:
+  /// One vessel before it is added.
+  struct Vessel {
+    std::int64_t from, to;  ///< points
+    double flow, radius, wall_thickness, generation, haematocrit, number;
+    network::VesselKind kind;
+  };
+  std::int64_t add_point(const network::Point& position, double pressure);
+  void add(const Vessel& vessel, const VesselMechanics& mechanics);
+
+  std::array<std::vector<double>, 3> position_;
+  std::vector<double> pressure_;
+  std::vector<std::int64_t> connectivity_;
+  std::map<std::string, std::vector<double>, std::less<>> line_values_;
+  std::vector<Annotation> annotations_;
+};
+
+/// Wall thickness of a vessel (m): its own where the graph has it, else by the rule for its kind.
+double wall_thickness(const network::Graph& graph, std::size_t vessel, const VesselMechanics& mechanics);
+
+}  // namespace rhexis::hemodynamics
