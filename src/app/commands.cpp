@@ -8,6 +8,7 @@
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
+#include "app/network_run.hpp"
 #include "app/version.hpp"
 #include "app/vessel_run.hpp"
 #include "input/keys.hpp"
@@ -66,7 +67,10 @@ int carry_out(const Command& command, parallel::Communicator comm) {
                           : std::filesystem::path(command.directory);
   options.restart = command.restart;
   options.quiet = command.quiet;
-  return VesselRun(std::move(configuration), options, comm).run() == Ending::interrupted ? 130 : 0;
+  const Ending ending = configuration.model == "network"
+                            ? NetworkRun(std::move(configuration), options, comm).run()
+                            : VesselRun(std::move(configuration), options, comm).run();
+  return ending == Ending::interrupted ? 130 : 0;
 }
 
 }  // namespace rhexis::app

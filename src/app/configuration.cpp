@@ -1,10 +1,12 @@
 #include "app/configuration.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "peridynamics/bond_family.hpp"
@@ -56,41 +58,137 @@ void settle_time_step(Configuration& c) {
   }
 }
 
-/// Scripts are looked for from the working folder first (what is typed at the terminal), then from the input
-/// file's folder (what an input file says of its neighbours); by the root rank, for ranks may see other
-/// files.
-void resolve_scripts(Configuration& c, parallel::Communicator comm) {
+/// Files named in the input are looked for from the working folder first (what is typed at the terminal),
+/// then from the input file's folder (what an input file says of its neighbours); by the root rank, for ranks
+/// may see other files.
+void find_files(std::vector<std::string>& files, const std::string& key, const std::string& what,
+                const std::string& input_file, parallel::Communicator comm) {
   namespace fs = std::filesystem;
-  for (std::string& script : c.insitu.scripts) {
+  for (std::string& file : files) {
     std::string found, error;
     if (comm.is_root()) {
-      const fs::path beside = fs::path(c.file).parent_path() / script;
-      if (fs::exists(script)) {
-        found = fs::canonical(script).string();
+      const fs::path beside = fs::path(input_file).parent_path() / file;
+      if (fs::exists(file)) {
+        found = fs::canonical(file).string();
       } else if (fs::exists(beside)) {
         found = fs::canonical(beside).string();
       } else {
-        error = "there is no Catalyst script " + fs::absolute(script).lexically_normal().string() + " or " +
+        error = "there is no " + what + " " + fs::absolute(file).lexically_normal().string() + " or " +
                 fs::absolute(beside).lexically_normal().string();
       }
     }
     error = comm.broadcast(error);
-    if (!error.empty()) throw InputError(error, "insitu.scripts");
-    script = comm.broadcast(found);
+    if (!error.empty()) throw InputError(error, key);
+    file = comm.broadcast(found);
+  }
+}
+
+void append(ParameterList& all, const ParameterList& part) {
+  all.insert(all.end(), part.begin(), part.end());
+}
+
+ParameterList declare_scene(Configuration& c) {
+  return {{"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
+          {"scene.model",
+           &c.model,
+           "",
+           "\"vessel\"",
+           "What is simulated: the rupture of one vessel's wall, or the flow in a network of vessels.",
+           "",
+           {},
+           {"vessel", "network"}}};
+}
+
+ParameterList declare_vessel(Configuration& c) {
+  ParameterList all = peridynamics::declare(c.vessel);
+  std::vector<std::string> fields;
+  for (const FieldInfo& field : peridynamics::ParticleSource::all_fields()) fields.emplace_back(field.name);
+  append(all, output::declare(c.output, fields));
+  return all;
+}
+
+ParameterList declare_network(Configuration& c) {
+  ParameterList all = network::declare(c.network);
+  append(all, hemodynamics::declare(c.hemodynamics));
+  return all;
+}
+
+/// The keys of the scene's model, as the document gives it; a key of the other model's is refused.
+ParameterList declare_model(Configuration& c, const input::Document& document) {
+  ParameterList parts[2] = {declare_vessel(c), declare_network(c)};
+  const char* const models[2] = {"vessel", "network"};
+  std::string model = models[0];
+  for (const input::Entry& entry : document.entries) {
+    if (entry.key != "scene.model") continue;
+    if (const auto* text = std::get_if<std::string>(&entry.value.content)) model = *text;
+  }
+  const int chosen = model == models[1] ? 1 : 0;
+  const auto other = input::sections_of(parts[1 - chosen]);
+  const auto refuse = [&](const std::string& place, const std::string& section) {
+    if (std::find(other.begin(), other.end(), section) == other.end()) return;
+    throw InputError(place + ": section [" + section + "] belongs to scenes with scene.model = \"" +
+                     models[1 - chosen] + "\"; this scene's is \"" + models[chosen] + "\"");
+  };
+  for (const input::Section& section : document.sections) {
+    refuse(document.file + ":" + std::to_string(section.line), section.name);
+  }
+  for (const input::Entry& entry : document.entries)
+    refuse(document.place(entry), input::section_of(entry.key));
+  ParameterList all = declare_scene(c);
+  append(all, parts[chosen]);
+  append(all, insitu::declare(c.insitu));
+  return all;
+}
+
+void resolve_vessel(Configuration& c) {
+  c.warnings = peridynamics::resolve(c.vessel);
+  settle_time_step(c);
+  c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
+}
+
+void resolve_network(Configuration& c, parallel::Communicator comm) {
+  network::Parameters& n = c.network;
+  hemodynamics::resolve(c.hemodynamics);
+  if (n.source == "file") {
+    if (n.files.empty() || n.files.size() > 2) {
+      throw InputError("name one VTP or JSON file, or two CSV files (junctions, vessels)", "network.files");
+    }
+    if (n.tier == "implicit") throw InputError("only a tree can be implicit", "network.tier");
+    find_files(n.files, "network.files", "network file", c.file, comm);
+    return;
+  }
+  if (!n.files.empty())
+    throw InputError("files are read only where network.source = \"file\"", "network.files");
+  c.tree = network::rules_from(n.tree, network::artery_wall(n.wall), network::vein_wall(n.wall));
+  hemodynamics::tree_boundary(c.hemodynamics);
+  const network::TreePair tree(c.tree);
+  const auto check_path = [&](const std::string& path, const char* key) {
+    try {
+      tree.id_of(path);
+    } catch (const InputError& error) {
+      throw InputError(error.what(), key);
+    }
+  };
+  for (const std::string& vessel : n.query) check_path(vessel, "network.query");
+  check_path(n.shown_subtree, "network.shown_subtree");
+  if (n.tier == "explicit" && c.tree.generations > 27) {
+    throw InputError(
+        "an explicit network of more than 27 generations needs more memory than a machine has; take "
+        "\"implicit\"",
+        "network.tier");
+  }
+  if (c.hemodynamics.phase_separation && (n.tier == "auto" || n.tier == "implicit")) {
+    throw InputError("phase separation needs network.tier = \"explicit\"", "blood.phase_separation");
   }
 }
 
 }  // namespace
 
 ParameterList declare(Configuration& c) {
-  ParameterList all{
-      {"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""}};
-  std::vector<std::string> fields;
-  for (const FieldInfo& field : peridynamics::ParticleSource::all_fields()) fields.emplace_back(field.name);
-  for (const ParameterList& part :
-       {peridynamics::declare(c.vessel), output::declare(c.output, fields), insitu::declare(c.insitu)}) {
-    all.insert(all.end(), part.begin(), part.end());
-  }
+  ParameterList all = declare_scene(c);
+  append(all, declare_vessel(c));
+  append(all, declare_network(c));
+  append(all, insitu::declare(c.insitu));
   return all;
 }
 
@@ -99,12 +197,14 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
   Configuration c;
   c.file = file;
   const input::Document document = input::parse_document(read_on_root(file, comm), file, overrides);
-  const input::Resolved resolved = input::read(document, declare(c));
+  const input::Resolved resolved = input::read(document, declare_model(c, document));
   try {
-    c.warnings = peridynamics::resolve(c.vessel);
-    settle_time_step(c);
-    c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
-    if (c.insitu.enabled) resolve_scripts(c, comm);
+    if (c.model == "network") {
+      resolve_network(c, comm);
+    } else {
+      resolve_vessel(c);
+    }
+    if (c.insitu.enabled) find_files(c.insitu.scripts, "insitu.scripts", "Catalyst script", c.file, comm);
   } catch (const InputError& error) {
     throw input::located(error, resolved);
   }

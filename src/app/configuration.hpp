@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "hemodynamics/parameters.hpp"
 #include "insitu/parameters.hpp"
+#include "network/parameters.hpp"
 #include "output/parameters.hpp"
 #include "parallel/communicator.hpp"
 #include "peridynamics/parameters.hpp"
@@ -16,9 +18,14 @@ namespace rhexis::app {
 struct Configuration {
   std::string file;
   std::string title;
+  std::string model;  ///< "vessel" | "network"
   peridynamics::Parameters vessel;
+  network::Parameters network;
+  hemodynamics::Parameters hemodynamics;
   output::Parameters output;
   insitu::Parameters insitu;
+
+  network::TreeRules tree;  ///< where network.source = "tree"
 
   double stable_time_step = 0;  ///< s
   double time_step = 0;         ///< s
@@ -31,8 +38,9 @@ struct Configuration {
 /// Every key there is, bound to `c`.
 ParameterList declare(Configuration& c);
 
-/// Reads and validates `file` with `overrides`, and settles time step and plan of output. Collective: one
-/// rank reads, all get the same configuration or the same InputError.
+/// Reads and validates `file` with `overrides`, and settles what follows from them: time step and plan of
+/// output, or the rules of a tree. Only the sections of the scene's model are read; any other is an error.
+/// Collective: one rank reads, all get the same configuration or the same InputError.
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
                                  parallel::Communicator comm);
 

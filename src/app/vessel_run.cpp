@@ -7,6 +7,7 @@
 
 #include "app/interrupt.hpp"
 #include "app/movie.hpp"
+#include "app/pictures.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -22,13 +23,6 @@ constexpr long venting_interval = 10;
 
 /// What ranks tell each other after every step, as bits.
 enum Flag : std::uint64_t { interrupted = 1, broken = 2, ruptured = 4, unstable = 8 };
-
-insitu::Renderer renderer(const std::string& name) {
-  if (name == "osmesa") return insitu::Renderer::osmesa;
-  if (name == "egl") return insitu::Renderer::egl;
-  if (name == "x11") return insitu::Renderer::x11;
-  return insitu::Renderer::automatic;
-}
 
 }  // namespace
 
@@ -125,22 +119,10 @@ void VesselRun::open_results() {
 }
 
 void VesselRun::start_insitu() {
-  if (!c_.insitu.enabled) {
-    renderer_ = "off (insitu.enabled = false)";
-    return;
-  }
-  if (c_.insitu.scripts.empty()) {
-    renderer_ = "off (no insitu.scripts)";
-    return;
-  }
   const Stopwatch watch(spent_.insitu);
-  try {
-    pipeline_ = insitu::load_pipeline(
-        {c_.insitu.scripts, (options_.directory / "images").string(), renderer(c_.insitu.renderer)}, comm_);
-    renderer_ = pipeline_->description();
-  } catch (const insitu::NotAvailable& reason) {
-    renderer_ = std::string("off: ") + reason.what();
-  }
+  Pictures pictures = start_pictures(c_.insitu, options_.directory, comm_);
+  pipeline_ = std::move(pictures.pipeline);
+  renderer_ = std::move(pictures.description);
 }
 
 bool VesselRun::pictures_due(long step, bool output_due) {

@@ -1,12 +1,12 @@
 /// One vessel from its configuration to its results: owns the time loop and the observers.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "app/configuration.hpp"
 #include "app/console.hpp"
+#include "app/run_options.hpp"
 #include "insitu/pipeline.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
@@ -17,14 +17,6 @@
 #include "peridynamics/particle_source.hpp"
 
 namespace rhexis::app {
-
-struct RunOptions {
-  std::filesystem::path directory;
-  std::filesystem::path restart;  ///< checkpoint; empty: from the start
-  bool quiet = false;
-};
-
-enum class Ending { completed, interrupted };
 
 class VesselRun {
  public:

@@ -93,9 +93,11 @@ ParameterList declare(Parameters& p) {
        "second, second "
        "and first daughter) and \"vein.0110\"; in a file its names.",
        ""},
-      {"network.shown_vessels", &p.shown_vessels, "1", "20000",
-       "Vessels of a tree to store and draw, the widest first; a picture can tell no more apart.", "",
-       Range::between(1, 5e6)},
+      {"network.shown_vessels", &p.shown_vessels, "1", "\"auto\"",
+       "The most vessels to store and draw, the widest first; a picture can tell no more apart. \"auto\": "
+       "20000 of a "
+       "tree, all of a file's.",
+       "", Range::between(1, 5e6)},
       {"network.shown_subtree", &p.shown_subtree, "", "\"artery.\"",
        "Place in the tree from which on vessels are stored and drawn, e.g. the path of a vessel a few "
        "generations "

@@ -29,7 +29,7 @@ struct Parameters {
   std::int64_t max_iterations = 0;
   bool statistics = true;
   std::vector<std::string> query;
-  std::int64_t shown_vessels = 0;
+  std::optional<std::int64_t> shown_vessels;
   std::string shown_subtree;
   TreeParameters tree;
   WallParameters wall;

@@ -27,8 +27,12 @@ void to_json(Json& json, const NetworkResults& network) {
                        {"inflow_m3_s", or_null(network.inflow_m3_s)},
                        {"max_imbalance", or_null(network.max_imbalance)},
                        {"volume_m3", or_null(network.volume_m3)},
+                       {"surface_m2", or_null(network.surface_m2)},
+                       {"highest_pressure_Pa", or_null(network.highest_pressure_Pa)},
+                       {"lowest_pressure_Pa", or_null(network.lowest_pressure_Pa)},
                        {"solver", or_null(network.solver)},
-                       {"iterations", or_null(network.iterations)}});
+                       {"iterations", or_null(network.iterations)},
+                       {"queries", network.queries}});
 }
 
 void to_json(Json& json, const Results& results) {

@@ -15,10 +15,12 @@ namespace rhexis::output {
 struct NetworkResults {
   std::optional<std::int64_t> vessels = {}, junctions = {};
   std::optional<double> inflow_m3_s = {};
-  std::optional<double> max_imbalance = {};  ///< relative to the inflow
-  std::optional<double> volume_m3 = {};
+  std::optional<double> max_imbalance = {};               ///< relative to the inflow
+  std::optional<double> volume_m3 = {}, surface_m2 = {};  ///< of the lumens
+  std::optional<double> highest_pressure_Pa = {}, lowest_pressure_Pa = {};
   std::optional<std::string> solver = {};
   std::optional<std::int64_t> iterations = {};
+  nlohmann::ordered_json queries = nlohmann::ordered_json::array();  ///< the vessels that the user asked for
 };
 
 /// The `results` part; a member without a value is written as null.

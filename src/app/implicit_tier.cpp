@@ -1,0 +1,157 @@
+// Tier 1: the tree pair by recursion; nothing is stored.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/console.hpp"
+#include "app/network_tier.hpp"
+#include "app/stopwatch.hpp"
+#include "core/format.hpp"
+#include "hemodynamics/tree_flow.hpp"
+#include "network/tree_selection.hpp"
+
+namespace rhexis::app {
+namespace {
+
+using hemodynamics::TreeFlow;
+using network::TreePair;
+
+/// Blood through every generation against the inflow: what the sweep itself shows of conservation.
+double worst_generation(const hemodynamics::TreeStatistics& s, double inflow) {
+  double worst = 0;
+  for (const auto& g : s.generations) worst = std::max(worst, std::abs(g.flow.mean * g.vessels / inflow - 1));
+  return worst;
+}
+
+class ImplicitTier : public NetworkTier {
+ public:
+  ImplicitTier(const Configuration& c, parallel::Communicator comm)
+      : c_(c), comm_(comm), tree_(c.tree), mechanics_(mechanics_of(c)) {}
+
+  std::string description() const override {
+    const network::TreeRules& r = c_.tree;
+    std::string text =
+        fmt::format("tree pair of {} generations: {} vessels, radii from {} to {} (xi {})", r.generations,
+                    grouped(static_cast<long long>(tree_.vessels())), quantity(r.root_radius, "m"),
+                    quantity(r.root_radius * std::pow(0.5, (r.generations - 1) / r.exponent), "m", 3),
+                    text_of(r.exponent));
+    if (r.random_splits()) text += fmt::format(", random splits (seed {})", r.seed);
+    if (r.random_lengths()) text += ", random lengths";
+    return text;
+  }
+
+  void prepare() override {}
+
+  NetworkSolution solve(const Say& say) override {
+    NetworkSolution s;
+    s.vessels = static_cast<std::int64_t>(tree_.vessels());
+    s.junctions = static_cast<std::int64_t>(tree_.junctions());
+    s.solver = c_.tree.repeats() ? "recursion, one vessel a generation" : "recursion";
+    double spent = 0;
+    std::optional<TreeFlow> flow;
+    {
+      const Stopwatch watch(spent);
+      flow.emplace(tree_, mechanics_.viscosity, boundary(), comm_);
+    }
+    say(fmt::format("  flow found in {} ({} a vessel)", duration(spent), per_vessel(spent)));
+    s.inflow = flow->flow();
+    s.highest_pressure = std::max(flow->inlet_pressure(), flow->outlet_pressure());
+    s.lowest_pressure = std::min(flow->inlet_pressure(), flow->outlet_pressure());
+    if (c_.network.statistics) sweep(*flow, s, say);
+    for (const std::string& name : c_.network.query) s.queries.push_back(query(*flow, name));
+    show(*flow, s);
+    return s;
+  }
+
+ private:
+  static std::string text_of(double value) { return rhexis::text(value); }
+  std::string per_vessel(double seconds) const {
+    return quantity(seconds / static_cast<double>(tree_.vessels()), "s", 2);
+  }
+  double weight(const network::Point& p) const { return mechanics_.hydrostatic.pressure(p[0], p[1], p[2]); }
+
+  /// The given pressures less the weight of blood at their places: what drives the flow.
+  hemodynamics::TreeBoundary boundary() const {
+    hemodynamics::TreeBoundary b = hemodynamics::tree_boundary(c_.hemodynamics);
+    if (b.inlet_pressure) *b.inlet_pressure -= weight(tree_.inlet());
+    if (b.outlet_pressure) *b.outlet_pressure -= weight(TreePair::mirrored(tree_.inlet()));
+    return b;
+  }
+
+  void sweep(const TreeFlow& flow, NetworkSolution& s, const Say& say) const {
+    double spent = 0;
+    {
+      const Stopwatch watch(spent);
+      s.statistics = hemodynamics::gather_statistics(flow, mechanics_.viscosity, comm_);
+    }
+    say(fmt::format("  statistics of all vessels in {} ({} a vessel)", duration(spent), per_vessel(spent)));
+    s.volume = s.statistics->volume;
+    s.surface = s.statistics->surface;
+    s.max_imbalance = worst_generation(*s.statistics, s.inflow);
+    if (s.statistics->narrow_vessels > 0) {
+      s.warnings.push_back(
+          fmt::format("{} vessels are narrower than blood.least_diameter, {}, and have the viscosity there",
+                      grouped(static_cast<long long>(s.statistics->narrow_vessels)),
+                      quantity(mechanics_.viscosity.least_diameter, "m")));
+    }
+    if (mechanics_.hydrostatic.acts()) {
+      s.warnings.push_back(
+          "statistics by generation leave out the weight of blood; stored and queried vessels have it");
+    }
+  }
+
+  QueriedVessel query(const TreeFlow& flow, const std::string& name) const {
+    const network::TreeVessel v = tree_.vessel(tree_.id_of(name));
+    const hemodynamics::VesselFlow f = flow.query(v.id);
+    return {.name = name,
+            .vessel = static_cast<std::int64_t>(v.id),
+            .kind = v.kind,
+            .generation = v.generation,
+            .radius = v.radius,
+            .length = v.length,
+            .wall_thickness = v.wall_thickness,
+            .flow = f.flow,
+            .pressure_from = f.pressure_from + weight(v.start),
+            .pressure_to = f.pressure_to + weight(v.end),
+            .start = v.start,
+            .end = v.end};
+  }
+
+  void show(const TreeFlow& flow, NetworkSolution& s) const {
+    const std::uint64_t top = TreePair::place_of(tree_.id_of(c_.network.shown_subtree));
+    const auto most = static_cast<std::size_t>(c_.network.shown_vessels.value_or(20000));
+    const auto places = network::widest_places(tree_, top, std::max<std::size_t>(1, most / 2));
+    std::vector<std::uint64_t> numbers;
+    for (const auto& p : places) numbers.push_back(p.place);
+    const auto flows = flow.at(numbers);
+    if (comm_.is_root()) s.lines = hemodynamics::VesselLines::of_tree(flow, places, flows, mechanics_);
+    s.shown = 2 * static_cast<std::int64_t>(places.size());
+  }
+
+  const Configuration& c_;
+  parallel::Communicator comm_;
+  TreePair tree_;
+  hemodynamics::VesselMechanics mechanics_;
+};
+
+}  // namespace
+
+std::unique_ptr<NetworkTier> make_implicit_tier(const Configuration& c, parallel::Communicator comm) {
+  return std::make_unique<ImplicitTier>(c, comm);
+}
+
+hemodynamics::VesselMechanics mechanics_of(const Configuration& c) {
+  const network::WallParameters& w = c.network.wall;
+  hemodynamics::VesselMechanics m{.artery_wall = network::artery_wall(w),
+                                  .vein_wall = network::vein_wall(w),
+                                  .young_modulus = w.young_modulus,
+                                  .poisson_ratio = w.poisson_ratio,
+                                  .viscosity = c.hemodynamics.viscosity,
+                                  .hydrostatic = {c.hemodynamics.density, {}}};
+  std::copy(c.hemodynamics.acceleration.begin(), c.hemodynamics.acceleration.end(),
+            m.hydrostatic.acceleration.begin());
+  return m;
+}
+
+}  // namespace rhexis::app

@@ -1,0 +1,115 @@
+// What a network's run says of itself: at its start, at its end, and in run.json.
+#include <fmt/format.h>
+
+#include "app/network_run.hpp"
+#include "app/version.hpp"
+#include "core/format.hpp"
+
+namespace rhexis::app {
+namespace {
+
+std::string mmhg(double pascal) {
+  return fmt::format("{:.4g} mmHg", pascal / 133.322387415);
+}
+
+std::string flow_text(double flow) {
+  return fmt::format("{:.4g} mL/min", flow * 6e7);
+}
+
+const char* kind_text(network::VesselKind kind) {
+  return kind == network::VesselKind::artery ? "artery"
+         : kind == network::VesselKind::vein ? "vein"
+                                             : "vessel";
+}
+
+std::string percent(double relative) {
+  return relative == 0 ? "0" : fmt::format("{:.1e}", relative);
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const QueriedVessel& q) {
+  nlohmann::ordered_json json{{"name", q.name},
+                              {"vessel", q.vessel},
+                              {"kind", kind_text(q.kind)},
+                              {"generation", nullptr},
+                              {"radius_m", q.radius},
+                              {"length_m", q.length},
+                              {"wall_thickness_m", q.wall_thickness},
+                              {"flow_m3_s", q.flow},
+                              {"pressure_from_Pa", q.pressure_from},
+                              {"pressure_to_Pa", q.pressure_to}};
+  json["start_m"] = json["end_m"] = nullptr;
+  if (q.generation >= 0) json["generation"] = q.generation;
+  if (q.start) json["start_m"] = *q.start;
+  if (q.end) json["end_m"] = *q.end;
+  return json;
+}
+
+void NetworkRun::say_header() {
+  const hemodynamics::Parameters& h = c_.hemodynamics;
+  console_.line(
+      fmt::format("Rhexis {} ({}): {}", version(), commit(), c_.title.empty() ? c_.file : c_.title));
+  for (const std::string& warning : c_.warnings) console_.warning(warning);
+  console_.item("input", c_.file);
+  console_.item("network", tier_->description());
+  console_.item("blood",
+                h.viscosity_law == "constant"
+                    ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
+                    : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", h.viscosity_law,
+                                  quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
+                                  h.phase_separation ? ", dividing at bifurcations" : ""));
+  console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
+                                        parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
+  console_.item("pictures", renderer_);
+  console_.item("results", options_.directory.string());
+}
+
+void NetworkRun::say_summary() {
+  const NetworkSolution& s = solution_;
+  const output::Performance p = performance();
+  console_.line("Done.");
+  for (const std::string& warning : s.warnings) console_.warning(warning);
+  if (s.statistics) {
+    console_.line(
+        "  generation     vessels  mean radius  flow each       arteries      veins     hoop stress");
+    for (const auto& g : s.statistics->generations) {
+      // The first, the last, and every so many in between.
+      const auto count = static_cast<int>(s.statistics->generations.size());
+      if (g.generation % ((count + 11) / 12) != 0 && g.generation != count - 1) continue;
+      console_.line(
+          fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}", g.generation,
+                      grouped(2 * static_cast<long long>(g.vessels)), quantity(g.radius[0].mean, "m", 3),
+                      fmt::format("{:.3g} mL/min", g.flow.mean * 6e7), g.pressure[0].mean / 133.322387415,
+                      g.pressure[1].mean / 133.322387415, quantity(g.hoop_stress[0].mean, "Pa", 3)));
+    }
+  }
+  console_.item("network", fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));
+  console_.item("inflow", flow_text(s.inflow));
+  console_.item("pressure", fmt::format("from {} to {}", mmhg(s.highest_pressure), mmhg(s.lowest_pressure)));
+  if (s.volume) {
+    console_.item("blood", fmt::format("{:.4g} mL in all vessels, wall surface {:.4g} m2", *s.volume * 1e6,
+                                       *s.surface));
+  }
+  if (s.max_imbalance) {
+    console_.item("conserved", fmt::format("to {} of the inflow at worst", percent(*s.max_imbalance)));
+  }
+  console_.item("solver",
+                s.iterations ? fmt::format("{}, {} iterations", s.solver, *s.iterations) : s.solver);
+  for (const QueriedVessel& q : s.queries) {
+    console_.item("vessel",
+                  fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name, kind_text(q.kind),
+                              q.generation < 0 ? "" : fmt::format(", generation {}", q.generation),
+                              quantity(q.radius, "m"), quantity(q.length, "m"), flow_text(q.flow),
+                              mmhg(q.pressure_from), mmhg(q.pressure_to)));
+  }
+  console_.item("shown", fmt::format("{} of {} vessels", grouped(s.shown), grouped(s.vessels)));
+  console_.item("time spent",
+                fmt::format("{} in all: {} solving, {} pictures, {} output", duration(*p.wall_s),
+                            duration(*p.solve_s), duration(*p.insitu_s), duration(*p.output_s)));
+  console_.item("memory",
+                fmt::format("{:.0f} MB over all ranks", static_cast<double>(*p.peak_rss_bytes) / 1e6));
+  console_.item("results", options_.directory.string());
+}
+
+}  // namespace rhexis::app

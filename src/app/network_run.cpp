@@ -1,0 +1,115 @@
+#include "app/network_run.hpp"
+
+#include <fmt/format.h>
+
+#include "app/network_tables.hpp"
+#include "app/pictures.hpp"
+#include "app/stopwatch.hpp"
+#include "app/version.hpp"
+#include "core/error.hpp"
+#include "output/atomic_file.hpp"
+#include "output/directory.hpp"
+#include "output/together.hpp"
+
+namespace rhexis::app {
+
+NetworkRun::NetworkRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
+    : c_(std::move(configuration)),
+      options_(std::move(options)),
+      comm_(comm),
+      console_(comm.is_root(), options_.quiet),
+      started_(seconds_now()) {
+  if (!options_.restart.empty()) throw InputError("--restart is for scenes with scene.model = \"vessel\"");
+}
+
+Ending NetworkRun::run() {
+  tier_ = make_tier(c_, comm_);
+  tier_->prepare();
+  try {
+    open_results();
+    {
+      const Stopwatch watch(spent_.insitu);
+      Pictures pictures = start_pictures(c_.insitu, options_.directory, comm_);
+      pipeline_ = std::move(pictures.pipeline);
+      renderer_ = std::move(pictures.description);
+    }
+    say_header();
+    solve();
+    {
+      const Stopwatch watch(spent_.output);
+      write_tables();
+      write_lines();
+    }
+    draw();
+  } catch (const RunError& error) {
+    note_failure(error.what());
+    throw;
+  }
+  record_->complete(results_, performance());
+  say_summary();
+  return Ending::completed;
+}
+
+/// Tells run.json why the run failed; a disk that is full for this too must not hide the reason.
+void NetworkRun::note_failure(const std::string& reason) {
+  if (!record_) return;
+  try {
+    record_->fail(reason, results_, performance());
+  } catch (const RunError& also) {
+    console_.warning(also.what());
+  }
+}
+
+void NetworkRun::open_results() {
+  output::prepare_directory(options_.directory, output::EarlierResults::remove, comm_);
+  record_.emplace(options_.directory / "run.json", version(), commit(), c_.record, comm_);
+}
+
+void NetworkRun::solve() {
+  const Stopwatch watch(spent_.solve);
+  solution_ = tier_->solve([&](const std::string& text) { console_.line(text); });
+  output::NetworkResults& n = results_.network;
+  n.vessels = solution_.vessels;
+  n.junctions = solution_.junctions;
+  n.inflow_m3_s = solution_.inflow;
+  n.max_imbalance = solution_.max_imbalance;
+  n.volume_m3 = solution_.volume;
+  n.surface_m2 = solution_.surface;
+  n.highest_pressure_Pa = solution_.highest_pressure;
+  n.lowest_pressure_Pa = solution_.lowest_pressure;
+  n.solver = solution_.solver;
+  n.iterations = solution_.iterations;
+  for (const QueriedVessel& q : solution_.queries) n.queries.push_back(to_json(q));
+}
+
+void NetworkRun::write_tables() {
+  output::on_root<RunError>(comm_, [&] {
+    if (solution_.statistics) {
+      output::write_atomically(options_.directory / "generations.csv",
+                               generation_table(*solution_.statistics));
+      output::write_atomically(options_.directory / "histograms.csv", histogram_table(*solution_.statistics));
+    }
+    if (!solution_.table.empty()) {
+      output::write_atomically(options_.directory / "vessels.csv", vessel_table(solution_.table));
+    }
+  });
+}
+
+void NetworkRun::write_lines() {}
+
+void NetworkRun::draw() {}
+
+output::Performance NetworkRun::performance() const {
+  output::Performance p;
+  p.ranks = comm_.size();
+  p.threads = parallel::thread_count();
+  p.wall_s = seconds_now() - started_;
+  p.solve_s = spent_.solve;
+  p.insitu_s = spent_.insitu;
+  p.output_s = spent_.output;
+  p.peak_rss_bytes = comm_.all_reduce(output::peak_resident_bytes(), parallel::Reduce::sum);
+  p.node_hours = *p.wall_s * comm_.node_count() / 3600;
+  return p;
+}
+
+}  // namespace rhexis::app

@@ -1,0 +1,70 @@
+#include "app/network_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace rhexis::app {
+namespace {
+
+constexpr const char* kinds[2] = {"artery", "vein"};
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + '"';
+}
+
+}  // namespace
+
+std::string generation_table(const hemodynamics::TreeStatistics& s) {
+  std::string table = "generation,kind,vessels,mean_length_m,volume_m3,surface_m2";
+  for (const char* name : {"radius_m", "flow_m3_s", "pressure_Pa", "hoop_stress_Pa"}) {
+    table += fmt::format(",mean_{0},least_{0},most_{0}", name);
+  }
+  table += '\n';
+  for (const auto& g : s.generations) {
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      table += fmt::format("{},{},{:.0f},{},{},{}", g.generation, kinds[kind], g.vessels, g.mean_length,
+                           g.volume[kind], g.surface[kind]);
+      for (const hemodynamics::Spread& q : {g.radius[kind], g.flow, g.pressure[kind], g.hoop_stress[kind]}) {
+        table += fmt::format(",{},{},{}", q.mean, q.least, q.most);
+      }
+      table += '\n';
+    }
+  }
+  return table;
+}
+
+std::string histogram_table(const hemodynamics::TreeStatistics& s) {
+  std::string table = "generation,kind,quantity,from,to,vessels\n";
+  const auto add = [&](const auto& g, const char* kind, const char* quantity, const hemodynamics::Bins& bins,
+                       const std::vector<std::uint64_t>& counts) {
+    for (std::size_t b = 0; b < counts.size(); ++b) {
+      if (counts[b] == 0) continue;
+      fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{}\n", g.generation, kind, quantity,
+                     bins.lower_edge(b), bins.upper_edge(b), counts[b]);
+    }
+  };
+  for (const auto& g : s.generations) {
+    add(g, "both", "flow_m3_s", s.flow_bins, g.flow_counts);
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      add(g, kinds[kind], "pressure_Pa", s.pressure_bins, g.pressure_counts[kind]);
+      add(g, kinds[kind], "hoop_stress_Pa", s.stress_bins, g.stress_counts[kind]);
+    }
+  }
+  return table;
+}
+
+std::string vessel_table(const std::vector<VesselRow>& rows) {
+  std::string table =
+      "vessel,from,to,radius_m,length_m,haematocrit,flow_m3_s,pressure_from_Pa,pressure_to_Pa\n";
+  for (const VesselRow& r : rows) {
+    fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{}\n", quoted(r.name), quoted(r.from),
+                   quoted(r.to), r.radius, r.length, r.haematocrit, r.flow, r.pressure_from, r.pressure_to);
+  }
+  return table;
+}
+
+}  // namespace rhexis::app

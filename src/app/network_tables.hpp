@@ -1,0 +1,21 @@
+/// Tables of a network's results, as CSV.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/network_tier.hpp"
+
+namespace rhexis::app {
+
+/// A row for each generation and kind: count, radius, length, volume, surface; mean, least and most of
+/// pressure, flow and hoop stress. SI units, named in the header.
+std::string generation_table(const hemodynamics::TreeStatistics& s);
+
+/// A row for each bin that is not empty: generation, kind, quantity, edges, vessels.
+std::string histogram_table(const hemodynamics::TreeStatistics& s);
+
+/// A row for each vessel of an explicit network.
+std::string vessel_table(const std::vector<VesselRow>& rows);
+
+}  // namespace rhexis::app

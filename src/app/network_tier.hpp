@@ -1,0 +1,78 @@
+/// The ways to hold and solve a network, behind one interface: implicit tree, explicit graph, distributed
+/// graph.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/configuration.hpp"
+#include "hemodynamics/tree_statistics.hpp"
+#include "hemodynamics/vessel_lines.hpp"
+#include "network/graph.hpp"
+#include "parallel/communicator.hpp"
+
+namespace rhexis::app {
+
+/// A vessel that the user asked for by name.
+struct QueriedVessel {
+  std::string name;  ///< as asked
+  std::int64_t vessel = 0;
+  network::VesselKind kind = network::VesselKind::unknown;
+  int generation = -1;
+  double radius = 0, length = 0, wall_thickness = 0;  ///< m
+  double flow = 0;                                    ///< m3/s
+  double pressure_from = 0, pressure_to = 0;          ///< Pa
+  std::optional<std::array<double, 3>> start, end;    ///< m
+};
+
+/// A vessel of a table for the user (explicit networks).
+struct VesselRow {
+  std::string name, from, to;
+  double radius, length, haematocrit, flow, pressure_from, pressure_to;
+};
+
+struct NetworkSolution {
+  std::int64_t vessels = 0, junctions = 0;
+  double inflow = 0;                                 ///< m3/s
+  std::optional<double> max_imbalance;               ///< relative to the inflow
+  std::optional<double> volume, surface;             ///< m3, m2
+  double highest_pressure = 0, lowest_pressure = 0;  ///< Pa, of all junctions
+  std::string solver;
+  std::optional<std::int64_t> iterations;
+  std::optional<hemodynamics::TreeStatistics> statistics;
+  std::vector<QueriedVessel> queries;
+  std::vector<VesselRow> table;
+  hemodynamics::VesselLines lines;  ///< to store and draw: this rank's
+  std::int64_t shown = 0;           ///< of all ranks
+  std::vector<std::string> warnings;
+};
+
+/// Says what is going on, at the terminal.
+using Say = std::function<void(const std::string&)>;
+
+class NetworkTier {
+ public:
+  virtual ~NetworkTier() = default;
+  /// What the header says of the network.
+  virtual std::string description() const = 0;
+  /// Reads and checks everything that the user may have got wrong: throws InputError before anything is
+  /// written.
+  virtual void prepare() = 0;
+  /// Throws RunError. Collective.
+  virtual NetworkSolution solve(const Say& say) = 0;
+};
+
+std::unique_ptr<NetworkTier> make_implicit_tier(const Configuration& c, parallel::Communicator comm);
+std::unique_ptr<NetworkTier> make_explicit_tier(const Configuration& c, parallel::Communicator comm);
+std::unique_ptr<NetworkTier> make_distributed_tier(const Configuration& c, parallel::Communicator comm);
+/// By network.tier.
+std::unique_ptr<NetworkTier> make_tier(const Configuration& c, parallel::Communicator comm);
+
+hemodynamics::VesselMechanics mechanics_of(const Configuration& c);
+
+}  // namespace rhexis::app

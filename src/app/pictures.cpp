@@ -1,0 +1,29 @@
+#include "app/pictures.hpp"
+
+namespace rhexis::app {
+namespace {
+
+insitu::Renderer renderer(const std::string& name) {
+  if (name == "osmesa") return insitu::Renderer::osmesa;
+  if (name == "egl") return insitu::Renderer::egl;
+  if (name == "x11") return insitu::Renderer::x11;
+  return insitu::Renderer::automatic;
+}
+
+}  // namespace
+
+Pictures start_pictures(const insitu::Parameters& parameters, const std::filesystem::path& results,
+                        parallel::Communicator comm) {
+  if (!parameters.enabled) return {nullptr, "off (insitu.enabled = false)"};
+  if (parameters.scripts.empty()) return {nullptr, "off (no insitu.scripts)"};
+  try {
+    auto pipeline = insitu::load_pipeline(
+        {parameters.scripts, (results / "images").string(), renderer(parameters.renderer)}, comm);
+    std::string description = pipeline->description();
+    return {std::move(pipeline), std::move(description)};
+  } catch (const insitu::NotAvailable& reason) {
+    return {nullptr, std::string("off: ") + reason.what()};
+  }
+}
+
+}  // namespace rhexis::app

@@ -1,0 +1,16 @@
+/// What the command line says of a run, and how runs end.
+#pragma once
+
+#include <filesystem>
+
+namespace rhexis::app {
+
+struct RunOptions {
+  std::filesystem::path directory;
+  std::filesystem::path restart;  ///< checkpoint; empty: from the start
+  bool quiet = false;
+};
+
+enum class Ending { completed, interrupted };
+
+}  // namespace rhexis::app
