@@ -34,19 +34,18 @@ HWY_INLINE FourWords philox(Word counter, network::Stream stream, std::uint64_t 
   const auto m0 = hn::Set(d, 0xD2511F53u), m1 = hn::Set(d, 0xCD9E8D57u);
   auto c0 = hn::And(counter, low), c1 = hn::ShiftRight<32>(counter);
   auto c2 = hn::Set(d, static_cast<std::uint64_t>(stream)), c3 = hn::Zero(d);
-  auto k0 = static_cast<std::uint32_t>(seed), k1 = static_cast<std::uint32_t>(seed >> 32);
+  const auto k0 = static_cast<std::uint32_t>(seed), k1 = static_cast<std::uint32_t>(seed >> 32);
   const hn::Repartition<std::uint32_t, Words> d32;
   for (int round = 0; round < 10; ++round) {
     const auto p0 = hn::MulEven(hn::BitCast(d32, c0), hn::BitCast(d32, m0));
     const auto p1 = hn::MulEven(hn::BitCast(d32, c2), hn::BitCast(d32, m1));
-    const auto next0 = hn::Xor3(hn::ShiftRight<32>(p1), c1, hn::Set(d, std::uint64_t{k0}));
-    const auto next2 = hn::Xor3(hn::ShiftRight<32>(p0), c3, hn::Set(d, std::uint64_t{k1}));
+    const std::uint64_t r = static_cast<std::uint64_t>(round);
+    const auto next0 = hn::Xor3(hn::ShiftRight<32>(p1), c1, hn::Set(d, (k0 + r * 0x9E3779B9u) & 0xffffffffu));
+    const auto next2 = hn::Xor3(hn::ShiftRight<32>(p0), c3, hn::Set(d, (k1 + r * 0xBB67AE85u) & 0xffffffffu));
     c1 = hn::And(p1, low);
     c3 = hn::And(p0, low);
     c0 = next0;
     c2 = next2;
-    k0 += 0x9E3779B9u;
-    k1 += 0xBB67AE85u;
   }
   return {{c0, c1, c2, c3}};
 }

@@ -11,6 +11,7 @@ namespace rhexis::hemodynamics {
 namespace {
 
 constexpr int most_top = 12, most_middle = 11, usual_bottom = 11;
+constexpr std::size_t subtrees_between_pauses = 32;
 
 }  // namespace
 
@@ -110,7 +111,9 @@ void TreeFlow::sweep_branch(Subtree& middle, Subtree& bottom, std::size_t branch
     bottom.rise();
     bottom.fall(state);
     for (int l = 0; l < bottom_depth_; ++l) consumer.consume(bottom.block(l, true));
+    if (i % subtrees_between_pauses == subtrees_between_pauses - 1) consumer.pause();
   }
+  consumer.pause();
 }
 
 void TreeFlow::sweep(const std::function<VesselConsumer&(int thread)>& consumer_of) const {
@@ -120,6 +123,7 @@ void TreeFlow::sweep(const std::function<VesselConsumer&(int thread)>& consumer_
   }
   if (comm_.is_root()) {
     for (int l = 0; l < top_depth_; ++l) consumer_of(0).consume(top_->block(l, true));
+    consumer_of(0).pause();
   }
   const int threads = parallel::thread_count();
   std::vector<std::unique_ptr<Subtree>> middle, bottom;
@@ -148,6 +152,7 @@ void TreeFlow::sweep_alike(VesselConsumer& consumer) const {
     consumer.consume(block);
     state = vessel.daughter(0);
   }
+  consumer.pause();
 }
 
 /// Finds single places; keeps the subtrees that it grew last.

@@ -47,6 +47,9 @@ class VesselConsumer {
  public:
   virtual ~VesselConsumer() = default;
   virtual void consume(const VesselBlock& block) = 0;
+  /// Comes at moments that do not depend on ranks and threads: sums of doubles made between two of them are
+  /// the same everywhere.
+  virtual void pause() {}
 };
 
 class TreeFlow {

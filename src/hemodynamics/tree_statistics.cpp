@@ -19,10 +19,12 @@ using lanes::Real;
 using lanes::Reals;
 using lanes::width;
 using parallel::ExactSum;
+using Integers = hn::RebindToSigned<Reals>;
 
 constexpr int geometric_shift = 50;  ///< leaves two bits of the mantissa: four bins to an octave
-constexpr std::size_t copies =
-    4;  ///< of every bin, taken by turns, so that equal bins do not wait for each other
+/// Of every counter, taken by turns, so that equal bins do not wait for each other.
+constexpr int copies_shift = 1;
+constexpr std::size_t copies = std::size_t{1} << copies_shift;
 
 std::uint64_t quarter_octave(double value) {
   return std::bit_cast<std::uint64_t>(value) >> geometric_shift;
@@ -31,48 +33,29 @@ double quarter_edge(std::uint64_t quarter) {
   return std::bit_cast<double>(quarter << geometric_shift);
 }
 
-/// Counts of one quantity in one generation.
-class Histogram {
+/// The bin of each value.
+class BinFinder {
  public:
-  Histogram(const Bins& bins) : bins_(bins), counts_(bins.count * copies) {}
+  explicit BinFinder(const Bins& bins)
+      : geometric_(bins.geometric),
+        last_(static_cast<std::int64_t>(bins.count) - 1),
+        top_(static_cast<std::int64_t>(quarter_octave(bins.high))),
+        low_(bins.low),
+        per_bin_(static_cast<double>(bins.count) / (bins.high - bins.low)) {}
 
-  void add(const double* values, std::size_t count, std::uint64_t weight) {
-    alignas(64) std::int64_t index[width];
+  HWY_INLINE hn::VFromD<Integers> operator()(Real v) const {
     const Reals d;
-    const hn::RebindToSigned<Reals> di;
-    const auto last = hn::Set(di, static_cast<std::int64_t>(bins_.count) - 1);
-    const double per_bin = static_cast<double>(bins_.count) / (bins_.high - bins_.low);
-    const auto top = hn::Set(di, static_cast<std::int64_t>(quarter_octave(bins_.high)));
-    std::size_t i = 0;
-    for (; i + width <= count; i += width) {
-      const Real v = hn::LoadU(d, values + i);
-      const auto bin =
-          bins_.geometric
-              ? hn::Sub(top, hn::ShiftRight<geometric_shift>(hn::BitCast(di, v)))
-              : hn::ConvertTo(di, hn::Mul(hn::Sub(v, hn::Set(d, bins_.low)), hn::Set(d, per_bin)));
-      hn::Store(hn::Min(hn::Max(bin, hn::Zero(di)), last), di, index);
-      for (std::size_t k = 0; k < width; ++k) {
-        counts_[static_cast<std::size_t>(index[k]) * copies + k % copies] += weight;
-      }
-    }
-    for (; i < count; ++i) {
-      const std::int64_t bin = bins_.geometric ? static_cast<std::int64_t>(quarter_octave(bins_.high)) -
-                                                     static_cast<std::int64_t>(quarter_octave(values[i]))
-                                               : static_cast<std::int64_t>((values[i] - bins_.low) * per_bin);
-      const std::int64_t inside =
-          std::clamp<std::int64_t>(bin, 0, static_cast<std::int64_t>(bins_.count) - 1);
-      counts_[static_cast<std::size_t>(inside) * copies] += weight;
-    }
-  }
-
-  void add_to(std::vector<std::uint64_t>& total) const {
-    total.resize(bins_.count);
-    for (std::size_t i = 0; i < counts_.size(); ++i) total[i / copies] += counts_[i];
+    const Integers di;
+    const auto bin = geometric_
+                         ? hn::Sub(hn::Set(di, top_), hn::ShiftRight<geometric_shift>(hn::BitCast(di, v)))
+                         : hn::ConvertTo(di, hn::Mul(hn::Sub(v, hn::Set(d, low_)), hn::Set(d, per_bin_)));
+    return hn::Min(hn::Max(bin, hn::Zero(di)), hn::Set(di, last_));
   }
 
  private:
-  Bins bins_;
-  std::vector<std::uint64_t> counts_;
+  bool geometric_;
+  std::int64_t last_, top_;
+  double low_, per_bin_;
 };
 
 /// Sum, least and most of one quantity in one generation.
@@ -80,27 +63,6 @@ struct Tally {
   explicit Tally(double scale) : sum(scale) {}
   ExactSum sum;
   double least = std::numeric_limits<double>::infinity(), most = -least;
-
-  void add(const double* values, std::size_t count, double weight) {
-    const Reals d;
-    Real total = hn::Zero(d), low = hn::Set(d, least), high = hn::Set(d, most);
-    std::size_t i = 0;
-    for (; i + width <= count; i += width) {
-      const Real v = hn::LoadU(d, values + i);
-      total = hn::Add(total, v);
-      low = hn::Min(low, v);
-      high = hn::Max(high, v);
-    }
-    double rest = hn::GetLane(hn::SumOfLanes(d, total));
-    least = hn::GetLane(hn::MinOfLanes(d, low));
-    most = hn::GetLane(hn::MaxOfLanes(d, high));
-    for (; i < count; ++i) {
-      rest += values[i];
-      least = std::min(least, values[i]);
-      most = std::max(most, values[i]);
-    }
-    sum.add(rest * weight);
-  }
 
   void add(const Tally& other) {
     sum.add(other.sum);
@@ -114,123 +76,197 @@ struct Tally {
   }
 };
 
+/// The same, lane by lane, of blocks since the last pause.
+struct LaneTally {
+  Real total, low, high;
+  LaneTally() {
+    const Reals d;
+    total = hn::Zero(d);
+    low = hn::Set(d, std::numeric_limits<double>::infinity());
+    high = hn::Neg(low);
+  }
+  HWY_INLINE void add(Real v, hn::Mask<Reals> counted) {
+    total = hn::Add(total, hn::IfThenElseZero(counted, v));
+    low = hn::Min(low, v);
+    high = hn::Max(high, v);
+  }
+  void leave(Tally& tally, double weight) {
+    const Reals d;
+    tally.sum.add(hn::GetLane(hn::SumOfLanes(d, total)) * weight);
+    tally.least = std::min(tally.least, hn::GetLane(hn::MinOfLanes(d, low)));
+    tally.most = std::max(tally.most, hn::GetLane(hn::MaxOfLanes(d, high)));
+    *this = LaneTally();
+  }
+};
+
+enum Quantity : std::size_t {
+  radius,
+  length,
+  flow,
+  square_length,
+  radius_length,
+  pressure,
+  vein_pressure,
+  stress,
+  vein_stress,
+  quantities
+};
+/// Counting takes most of a sweep's time, so what belongs together is counted at once: flow; pressure of
+/// artery and vein, in a table of both; hoop stress of both. What is reported are the tables' sums over rows
+/// and columns.
+constexpr std::size_t tables = 3;
+constexpr int flow_shift = 8, pressure_shift = 6, stress_shift = 6;  ///< bins: powers of two
+constexpr std::size_t counters[tables] = {copies << flow_shift, copies << (2 * pressure_shift),
+                                          copies << (2 * stress_shift)};
+
 /// What all generations and threads share.
 struct Context {
-  Bins pressure, flow, stress;
+  Bins pressure_bins, flow_bins, stress_bins;
   double vein_ratio = 1;
   bool stress_by_radius[2]{};
   double stress_factor[2]{};      ///< where it does not depend on the radius
   IntervalTable stress_table[2];  ///< of the artery's radius
   double narrow_radius[2]{};      ///< of the artery
-  double radius_scale = 1, flow_scale = 1, pressure_scale = 1, stress_scale = 1, length_scale = 1;
+  double scale[quantities]{};
 };
 
-/// Scale of sums that grow with the number of vessels, so that a whole generation fits one term of an
-/// ExactSum.
-double many_in(int generation) {
-  return std::ldexp(1.0, std::max(0, generation - 20));
-}
-
 struct GenerationGatherer {
-  GenerationGatherer(const Context& c, double many)
-      : radius(c.radius_scale * many),
-        length(c.length_scale * many),
-        flow(c.flow_scale),
-        volume(c.radius_scale * c.radius_scale * c.length_scale),
-        surface(c.radius_scale * c.length_scale),
-        pressure{Tally(c.pressure_scale * many), Tally(c.pressure_scale * many)},
-        stress{Tally(c.stress_scale * many), Tally(c.stress_scale * many)},
-        flow_counts(c.flow),
-        pressure_counts{Histogram(c.pressure), Histogram(c.pressure)},
-        stress_counts{Histogram(c.stress), Histogram(c.stress)} {}
-
-  void add(const GenerationGatherer& other) {
-    radius.add(other.radius);
-    length.add(other.length);
-    flow.add(other.flow);
-    volume.add(other.volume);
-    surface.add(other.surface);
-    for (std::size_t kind = 0; kind < 2; ++kind) {
-      pressure[kind].add(other.pressure[kind]);
-      stress[kind].add(other.stress[kind]);
-      narrow[kind] += other.narrow[kind];
+  GenerationGatherer(const Context& c, int generation) {
+    for (std::size_t table = 0; table < tables; ++table) counts[table].resize(counters[table]);
+    // Sums that grow with the number of vessels get a scale that fits a whole generation in one term.
+    const double many = std::ldexp(1.0, std::max(0, generation - 20));
+    for (std::size_t q = 0; q < quantities; ++q) {
+      const bool grows = q != flow && q != square_length && q != radius_length;
+      tallies.emplace_back(c.scale[q] * (grows ? many : 1));
     }
   }
 
-  Tally radius, length, flow, volume, surface;  ///< volume and surface: sums of r^2 L and r L of arteries
-  Tally pressure[2], stress[2];
-  Histogram flow_counts, pressure_counts[2], stress_counts[2];
+  void add(const GenerationGatherer& other) {
+    for (std::size_t q = 0; q < quantities; ++q) tallies[q].add(other.tallies[q]);
+    for (std::size_t kind = 0; kind < 2; ++kind) narrow[kind] += other.narrow[kind];
+    for (std::size_t table = 0; table < tables; ++table) {
+      for (std::size_t i = 0; i < counters[table]; ++i) counts[table][i] += other.counts[table][i];
+    }
+  }
+
+  std::vector<std::uint64_t> flow_counts() const { return sums(0, copies_shift, flow_shift); }
+  /// Over the other kind's bins; kind 0: arteries (rows), 1: veins (columns).
+  std::vector<std::uint64_t> pressure_counts(std::size_t kind) const {
+    return sums(1, copies_shift + (kind == 0 ? pressure_shift : 0), pressure_shift);
+  }
+  std::vector<std::uint64_t> stress_counts(std::size_t kind) const {
+    return sums(2, copies_shift + (kind == 0 ? stress_shift : 0), stress_shift);
+  }
+
+  /// Sums of a table's counters that agree in `bits` bits of their index from bit `shift` on.
+  std::vector<std::uint64_t> sums(std::size_t table, int shift, int bits) const {
+    std::vector<std::uint64_t> total(std::size_t{1} << bits);
+    for (std::size_t i = 0; i < counters[table]; ++i)
+      total[i >> shift & (total.size() - 1)] += counts[table][i];
+    return total;
+  }
+
+  void leave(double weight) {
+    for (std::size_t q = 0; q < quantities; ++q) lanes[q].leave(tallies[q], weight);
+  }
+
+  std::vector<Tally> tallies;
+  std::array<LaneTally, quantities> lanes;
+  std::array<std::vector<std::uint64_t>, tables> counts;
   double narrow[2]{};
 };
 
 class Gatherer : public VesselConsumer {
  public:
-  Gatherer(const Context& context, int generations) : context_(context) {
-    for (int g = 0; g < generations; ++g) generations_.emplace_back(context, many_in(g));
+  Gatherer(const Context& context, int generations)
+      : c_(context),
+        find_flow_(context.flow_bins),
+        find_pressure_(context.pressure_bins),
+        find_stress_(context.stress_bins) {
+    for (int g = 0; g < generations; ++g) generations_.emplace_back(context, g);
   }
 
   void consume(const VesselBlock& b) override {
-    if (scratch_[0].size() < b.count + width) {
-      for (auto& s : scratch_) s.resize(b.count + width);
+    if (b.count >= width) {
+      gather(b);
+      return;
     }
-    GenerationGatherer& g = generations_[static_cast<std::size_t>(b.generation)];
-    const auto weight = static_cast<std::uint64_t>(b.multiplicity);
-    g.radius.add(b.radius, b.count, b.multiplicity);
-    g.length.add(b.length, b.count, b.multiplicity);
-    g.flow.add(b.flow, b.count, b.multiplicity);
-    g.flow_counts.add(b.flow, b.count, weight);
-    measure_geometry(b);
-    g.volume.add(scratch_[0].data(), b.count, b.multiplicity);
-    g.surface.add(scratch_[1].data(), b.count, b.multiplicity);
-    for (int kind = 0; kind < 2; ++kind) {
-      const auto at = static_cast<std::size_t>(kind);
-      g.narrow[at] += measure_pressure(b, kind) * b.multiplicity;
-      g.pressure[at].add(scratch_[0].data(), b.count, b.multiplicity);
-      g.stress[at].add(scratch_[1].data(), b.count, b.multiplicity);
-      g.pressure_counts[at].add(scratch_[0].data(), b.count, weight);
-      g.stress_counts[at].add(scratch_[1].data(), b.count, weight);
+    // Filled up with the first vessel, which then does not count again.
+    const double* const arrays[] = {b.radius,     b.length,    b.flow,    b.artery_near,
+                                    b.artery_far, b.vein_near, b.vein_far};
+    double filled[7][width];
+    for (std::size_t a = 0; a < 7; ++a) {
+      std::fill_n(filled[a], width, arrays[a][0]);
+      std::copy_n(arrays[a], b.count, filled[a]);
     }
+    VesselBlock full = b;
+    full.count = width;
+    full.radius = filled[0];
+    full.length = filled[1];
+    full.flow = filled[2];
+    full.artery_near = filled[3];
+    full.artery_far = filled[4];
+    full.vein_near = filled[5];
+    full.vein_far = filled[6];
+    gather(full, b.count);
+  }
+
+  void pause() override {
+    for (GenerationGatherer& g : generations_) g.leave(1);
   }
 
   const std::vector<GenerationGatherer>& generations() const { return generations_; }
 
  private:
-  /// r^2 L and r L.
-  void measure_geometry(const VesselBlock& b) {
-    for (std::size_t i = 0; i < b.count; ++i) {
-      scratch_[1][i] = b.radius[i] * b.length[i];
-      scratch_[0][i] = b.radius[i] * scratch_[1][i];
-    }
+  HWY_INLINE Real stress_of(int kind, Real r, Real p) const {
+    if (!c_.stress_by_radius[kind]) return hn::Mul(p, hn::Set(Reals(), c_.stress_factor[kind]));
+    return hn::Mul(p, lanes::value_of(c_.stress_table[kind], r));
   }
 
-  /// Mean pressure and hoop stress; returns how many vessels are narrow.
-  double measure_pressure(const VesselBlock& b, int kind) {
-    const double *near = kind == 0 ? b.artery_near : b.vein_near,
-                 *far = kind == 0 ? b.artery_far : b.vein_far;
-    double *pressure = scratch_[0].data(), *stress = scratch_[1].data();
-    const bool by_radius = context_.stress_by_radius[kind];
-    const double factor = context_.stress_factor[kind], narrow_radius = context_.narrow_radius[kind];
-    std::size_t narrow = 0;
-    for (std::size_t i = 0; i < b.count; ++i) {
-      pressure[i] = 0.5 * (near[i] + far[i]);
-      stress[i] = pressure[i] * factor;
-      narrow += b.radius[i] < narrow_radius;
-    }
-    if (!by_radius) return static_cast<double>(narrow);
-    const IntervalTable& table = context_.stress_table[kind];
+  /// `counted`: vessels of every vector that count.
+  void gather(const VesselBlock& b, std::size_t counted = width) {
     const Reals d;
-    std::size_t i = 0;
-    for (; i + width <= b.count; i += width) {
-      const Real k = lanes::value_of(table, hn::LoadU(d, b.radius + i));
-      hn::StoreU(hn::Mul(k, hn::LoadU(d, pressure + i)), d, stress + i);
+    const Integers di;
+    GenerationGatherer& g = generations_[static_cast<std::size_t>(b.generation)];
+    std::array<LaneTally, quantities> t = g.lanes;
+    const auto weight = static_cast<std::uint64_t>(b.multiplicity);
+    const auto valid = hn::FirstN(d, counted);
+    const auto half = hn::Set(d, 0.5);
+    const auto narrow_artery = hn::Set(d, c_.narrow_radius[0]), narrow_vein = hn::Set(d, c_.narrow_radius[1]);
+    std::size_t narrow[2] = {};
+    alignas(64) std::int64_t place[tables][width];
+    const auto turn = hn::And(hn::Iota(di, 0), hn::Set(di, static_cast<std::int64_t>(copies) - 1));
+    for (std::size_t i = 0; i < b.count; i += width) {
+      const Real r = hn::LoadU(d, b.radius + i), l = hn::LoadU(d, b.length + i), q = hn::LoadU(d, b.flow + i);
+      const Real p = hn::Mul(half, hn::Add(hn::LoadU(d, b.artery_near + i), hn::LoadU(d, b.artery_far + i)));
+      const Real v = hn::Mul(half, hn::Add(hn::LoadU(d, b.vein_near + i), hn::LoadU(d, b.vein_far + i)));
+      const Real rl = hn::Mul(r, l), s = stress_of(0, r, p), w = stress_of(1, r, v);
+      const Real values[quantities] = {r, l, q, hn::Mul(r, rl), rl, p, v, s, w};
+      for (std::size_t k = 0; k < quantities; ++k) t[k].add(values[k], valid);
+      narrow[0] += hn::CountTrue(d, hn::And(valid, hn::Lt(r, narrow_artery)));
+      narrow[1] += hn::CountTrue(d, hn::And(valid, hn::Lt(r, narrow_vein)));
+      const auto both = [&](auto shift, auto artery, auto vein) {
+        return hn::Or(hn::ShiftLeft<copies_shift>(hn::Or(hn::ShiftLeft<shift.value>(artery), vein)), turn);
+      };
+      hn::Store(hn::Or(hn::ShiftLeft<copies_shift>(find_flow_(q)), turn), di, place[0]);
+      hn::Store(both(std::integral_constant<int, pressure_shift>(), find_pressure_(p), find_pressure_(v)), di,
+                place[1]);
+      hn::Store(both(std::integral_constant<int, stress_shift>(), find_stress_(s), find_stress_(w)), di,
+                place[2]);
+      for (std::size_t table = 0; table < tables; ++table) {
+        std::uint64_t* const counts = g.counts[table].data();
+        for (std::size_t k = 0; k < counted; ++k) counts[place[table][k]] += weight;
+      }
     }
-    for (; i < b.count; ++i) stress[i] = table(b.radius[i]) * pressure[i];
-    return static_cast<double>(narrow);
+    g.lanes = t;
+    for (std::size_t kind = 0; kind < 2; ++kind)
+      g.narrow[kind] += static_cast<double>(narrow[kind]) * b.multiplicity;
+    if (b.multiplicity != 1) g.leave(b.multiplicity);
   }
 
-  const Context& context_;
+  const Context& c_;
+  BinFinder find_flow_, find_pressure_, find_stress_;
   std::vector<GenerationGatherer> generations_;
-  std::vector<double> scratch_[2];
 };
 
 Context make_context(const TreeFlow& flow, const Viscosity& viscosity) {
@@ -238,8 +274,8 @@ Context make_context(const TreeFlow& flow, const Viscosity& viscosity) {
   Context c;
   const double least = std::min(flow.inlet_pressure(), flow.outlet_pressure());
   const double most = std::max(flow.inlet_pressure(), flow.outlet_pressure());
-  c.pressure = {false, 64, least, most > least ? most : least + 1};
-  c.flow = {true, 256, 0, std::abs(flow.flow())};
+  c.pressure_bins = {false, std::size_t{1} << pressure_shift, least, most > least ? most : least + 1};
+  c.flow_bins = {true, std::size_t{1} << flow_shift, 0, std::abs(flow.flow())};
   c.vein_ratio = rules.vein_radius_ratio;
   const double widest = rules.root_radius;
   const double narrowest =
@@ -262,17 +298,19 @@ Context make_context(const TreeFlow& flow, const Viscosity& viscosity) {
         viscosity.law == ViscosityLaw::constant ? 0 : viscosity.least_diameter / 2 / ratio;
   }
   const double top = std::max(std::abs(least), std::abs(most));
-  c.stress = {true, 128, 0, top * largest_factor};
-  c.radius_scale = widest;
-  c.length_scale = rules.length(0, widest);
-  c.flow_scale = std::abs(flow.flow());
-  c.pressure_scale = top;
-  c.stress_scale = c.stress.high;
+  c.stress_bins = {true, std::size_t{1} << stress_shift, 0, top * largest_factor};
+  const double longest = rules.length(0, widest) * (1 + rules.length_spread);
+  const double scales[quantities] = {
+      widest, longest, std::abs(flow.flow()), widest * widest * longest, widest * longest,
+      top,    top,     c.stress_bins.high,    c.stress_bins.high};
+  std::copy_n(scales, +quantities, c.scale);
   return c;
 }
 
-void add_counts(std::vector<std::uint64_t>& counts, parallel::Communicator comm) {
+/// Over all ranks.
+std::vector<std::uint64_t> of_all(std::vector<std::uint64_t> counts, parallel::Communicator comm) {
   comm.all_reduce(counts, parallel::Reduce::sum);
+  return counts;
 }
 
 }  // namespace
@@ -297,39 +335,33 @@ TreeStatistics gather_statistics(const TreeFlow& flow, const Viscosity& viscosit
   flow.sweep([&](int thread) -> VesselConsumer& { return *gatherers[static_cast<std::size_t>(thread)]; });
 
   TreeStatistics s;
-  s.pressure_bins = context.pressure;
-  s.flow_bins = context.flow;
-  s.stress_bins = context.stress;
+  s.pressure_bins = context.pressure_bins;
+  s.flow_bins = context.flow_bins;
+  s.stress_bins = context.stress_bins;
   const double ratio = context.vein_ratio;
   for (int generation = 0; generation < k; ++generation) {
     const auto at = static_cast<std::size_t>(generation);
-    GenerationGatherer total(context, many_in(generation));
+    GenerationGatherer total(context, generation);
+    for (const auto& gatherer : gatherers) total.add(gatherer->generations()[at]);
     GenerationStatistics g;
-    for (const auto& gatherer : gatherers) {
-      const GenerationGatherer& part = gatherer->generations()[at];
-      total.add(part);
-      part.flow_counts.add_to(g.flow_counts);
-      for (std::size_t kind = 0; kind < 2; ++kind) {
-        part.pressure_counts[kind].add_to(g.pressure_counts[kind]);
-        part.stress_counts[kind].add_to(g.stress_counts[kind]);
-      }
-    }
     g.generation = generation;
     g.vessels = std::ldexp(1.0, generation);
-    g.radius[0] = total.radius.spread(g.vessels, comm);
+    const auto spread = [&](Quantity q) { return total.tallies[q].spread(g.vessels, comm); };
+    const auto sum = [&](Quantity q) { return total.tallies[q].sum.value(comm); };
+    g.radius[0] = spread(radius);
     g.radius[1] = {g.radius[0].mean * ratio, g.radius[0].least * ratio, g.radius[0].most * ratio};
-    g.mean_length = total.length.sum.value(comm) / g.vessels;
-    g.flow = total.flow.spread(g.vessels, comm);
-    g.volume[0] = std::numbers::pi * total.volume.sum.value(comm);
+    g.mean_length = sum(length) / g.vessels;
+    g.flow = spread(Quantity::flow);
+    g.volume[0] = std::numbers::pi * sum(square_length);
     g.volume[1] = g.volume[0] * ratio * ratio;
-    g.surface[0] = 2 * std::numbers::pi * total.surface.sum.value(comm);
+    g.surface[0] = 2 * std::numbers::pi * sum(radius_length);
     g.surface[1] = g.surface[0] * ratio;
-    add_counts(g.flow_counts, comm);
+    g.pressure = {spread(pressure), spread(vein_pressure)};
+    g.hoop_stress = {spread(stress), spread(vein_stress)};
+    g.flow_counts = of_all(total.flow_counts(), comm);
     for (std::size_t kind = 0; kind < 2; ++kind) {
-      g.pressure[kind] = total.pressure[kind].spread(g.vessels, comm);
-      g.hoop_stress[kind] = total.stress[kind].spread(g.vessels, comm);
-      add_counts(g.pressure_counts[kind], comm);
-      add_counts(g.stress_counts[kind], comm);
+      g.pressure_counts[kind] = of_all(total.pressure_counts(kind), comm);
+      g.stress_counts[kind] = of_all(total.stress_counts(kind), comm);
       s.narrow_vessels += comm.all_reduce(total.narrow[kind], parallel::Reduce::sum);
     }
     s.volume += g.volume[0] + g.volume[1];
