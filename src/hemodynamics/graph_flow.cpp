@@ -1,6 +1,158 @@
 #include "hemodynamics/graph_flow.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "hemodynamics/boundary.hpp"
+#include "hemodynamics/core_solve.hpp"
+#include "hemodynamics/reduction.hpp"
+
 namespace rhexis::hemodynamics {
+namespace {
+
+/// The graph with its ghosts, ready for reduction.
+Reduction reducible(const network::Graph& graph, std::vector<double> conductance, const Boundary& boundary) {
+  const std::size_t junctions = graph.junctions + boundary.ghosts.size();
+  const std::size_t vessels = graph.vessels() + boundary.ghosts.size();
+  std::vector<std::uint32_t> tail, head;
+  tail.reserve(vessels);
+  head.reserve(vessels);
+  conductance.reserve(vessels);
+  tail.assign(graph.from.begin(), graph.from.end());
+  head.assign(graph.to.begin(), graph.to.end());
+  std::vector<double> injection(junctions);
+  std::vector<bool> kept(junctions);
+  for (std::size_t n = 0; n < boundary.ghosts.size(); ++n) {
+    tail.push_back(boundary.ghosts[n].junction);
+    head.push_back(static_cast<std::uint32_t>(graph.junctions + n));
+    conductance.push_back(boundary.ghosts[n].conductance);
+    kept[graph.junctions + n] = true;
+  }
+  for (const auto& fixed : boundary.fixed) kept[fixed.junction] = true;
+  for (const auto& inflow : boundary.inflows) injection[inflow.junction] = inflow.flow;
+  return {std::move(tail), std::move(head), std::move(conductance), std::move(injection), std::move(kept)};
+}
+
+std::vector<Boundary::Fixed> all_fixed(const network::Graph& graph, const Boundary& boundary) {
+  std::vector<Boundary::Fixed> fixed = boundary.fixed;
+  for (std::size_t n = 0; n < boundary.ghosts.size(); ++n) {
+    fixed.push_back({static_cast<std::uint32_t>(graph.junctions + n), boundary.ghosts[n].pressure});
+  }
+  return fixed;
+}
+
+double sum_of_inflows(const Boundary& boundary) {
+  double sum = 0;
+  for (const auto& inflow : boundary.inflows) sum += std::max(inflow.flow, 0.0);
+  return sum;
+}
+
+GraphSolver choose(const GraphSolverOptions& options, std::size_t unknowns) {
+  if (unknowns == 0) return GraphSolver::elimination;
+  if (options.solver == GraphSolver::elimination) {
+    throw InputError(
+        "solver 'elimination' leaves " + std::to_string(unknowns) +
+        " junctions of this network, which is neither a tree nor made of series and parallel vessels "
+        "only: use 'auto'");
+  }
+  if (options.solver != GraphSolver::automatic) return options.solver;
+  return unknowns <= largest_for_ldlt ? GraphSolver::ldlt : GraphSolver::approximate_cholesky;
+}
+
+/// What reduction has left, numbered anew: unknown junctions first, then those of fixed pressure.
+struct Core {
+  std::vector<std::uint32_t> vessel, junction;  // numbers before
+  std::size_t unknowns = 0;
+  CoreSystem system;
+};
+
+Core core_of(const Reduction& reduction, std::size_t junctions, const std::vector<Boundary::Fixed>& fixed,
+             double inflow) {
+  constexpr std::uint32_t none = 0xffffffff;
+  std::vector<std::uint32_t> left = reduction.vessels_left(), junction;
+  std::vector<std::uint32_t> number(left.empty() ? 0 : junctions, none);
+  for (const std::uint32_t v : left) {
+    for (const std::uint32_t j : {reduction.tail(v), reduction.head(v)}) {
+      if (number[j] != none || reduction.kept(j)) continue;
+      number[j] = static_cast<std::uint32_t>(junction.size());
+      junction.push_back(j);
+    }
+  }
+  const std::size_t unknowns = junction.size();
+  std::vector<double> injection, pressure;
+  for (const auto& [j, value] : fixed) {
+    if (!number.empty()) number[j] = static_cast<std::uint32_t>(junction.size());
+    junction.push_back(j);
+    pressure.push_back(value);
+  }
+  for (const std::uint32_t j : junction) injection.push_back(reduction.injection(j));
+  std::vector<CoreVessel> vessels;
+  vessels.reserve(left.size());
+  for (const std::uint32_t v : left) {
+    vessels.push_back({number[reduction.tail(v)], number[reduction.head(v)], reduction.conductance(v)});
+  }
+  return {std::move(left), std::move(junction), unknowns,
+          CoreSystem(unknowns, std::move(vessels), std::move(injection), pressure, inflow)};
+}
+
+/// Pressures and flows, ghosts included; solver, iterations, size of the core.
+GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> conductance,
+                           const Boundary& boundary, const GraphSolverOptions& options, double& resolution) {
+  Reduction reduction = reducible(graph, std::move(conductance), boundary);
+  reduction.reduce();
+  if (reduction.floating_junction() != Reduction::none) throw_floating(graph, reduction.floating_junction());
+  GraphFlow result;
+  {
+    const auto fixed = all_fixed(graph, boundary);
+    const std::size_t junctions = graph.junctions + boundary.ghosts.size();
+    auto [vessel, junction, unknowns, system] =
+        core_of(reduction, junctions, fixed, sum_of_inflows(boundary));
+    const std::size_t floating = system.spread_fixed_pressures();
+    if (floating < unknowns) throw_floating(graph, junction[floating]);
+    result.solver = choose(options, unknowns);
+    result.core_junctions = static_cast<std::int64_t>(unknowns);
+    if (unknowns > 0) result.iterations = solve_core(system, result.solver, options);
+    resolution = system.resolution();
+    for (std::size_t n = 0; n < junction.size(); ++n) reduction.set_pressure(junction[n], system.pressure(n));
+    for (std::size_t n = 0; n < vessel.size(); ++n) reduction.set_flow(vessel[n], system.flow(n));
+  }
+  reduction.restore();
+  result.pressure = reduction.take_pressure();
+  result.flow = reduction.take_flow();
+  return result;
+}
+
+/// Fills in inflow and imbalance of the flows as they are, and forgets the ghosts.
+void judge(const network::Graph& graph, const Boundary& boundary, double smallest_inflow, GraphFlow& result) {
+  std::vector<double> outflow(graph.junctions);  // through vessels and ghosts, less what a condition injects
+  for (std::size_t v = 0; v < graph.vessels(); ++v) {
+    outflow[graph.from[v]] += result.flow[v];
+    outflow[graph.to[v]] -= result.flow[v];
+  }
+  result.inflow = sum_of_inflows(boundary);
+  for (std::size_t n = 0; n < boundary.ghosts.size(); ++n) {
+    const double out = result.flow[graph.vessels() + n];
+    outflow[boundary.ghosts[n].junction] += out;
+    result.inflow += std::max(-out, 0.0);
+  }
+  for (const auto& inflow : boundary.inflows) outflow[inflow.junction] -= inflow.flow;
+  for (const auto& fixed : boundary.fixed) {
+    result.inflow += std::max(outflow[fixed.junction], 0.0);
+    outflow[fixed.junction] = 0;
+  }
+  double worst = 0;
+  for (const double out : outflow) worst = std::max(worst, std::abs(out));
+  const double scale = std::max(result.inflow, smallest_inflow);
+  result.max_imbalance = worst == 0 ? 0 : worst / scale;
+  result.flow.resize(graph.vessels());
+  result.pressure.resize(graph.junctions);
+}
+
+}  // namespace
 
 std::string_view name_of(GraphSolver solver) {
   switch (solver) {
@@ -18,6 +170,23 @@ std::string_view name_of(GraphSolver solver) {
       return "amg";
   }
   return "";
+}
+
+GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,
+                     std::span<const network::Condition> conditions, const GraphSolverOptions& options) {
+  check_vessels(graph, conductance);
+  const Boundary boundary = sort_conditions(graph, conditions);
+  double resolution = 0;
+  GraphFlow result = reduce_and_solve(graph, std::move(conductance), boundary, options, resolution);
+  judge(graph, boundary, resolution / options.imbalance, result);
+  for (std::size_t j = 0; j < graph.junctions; ++j) {
+    if (!boundary.has_vessels[j]) result.pressure[j] = std::numeric_limits<double>::quiet_NaN();
+  }
+  for (const auto& [junction, pressure] : boundary.fixed) result.pressure[junction] = pressure;
+  for (const auto& ghost : boundary.ghosts) {
+    if (!boundary.has_vessels[ghost.junction]) result.pressure[ghost.junction] = ghost.pressure;
+  }
+  return result;
 }
 
 }  // namespace rhexis::hemodynamics

@@ -26,6 +26,8 @@ enum class Reduce { sum, min, max, bit_or };
 class Communicator {
  public:
   static Communicator world() { return Communicator(MPI_COMM_WORLD); }
+  /// This rank alone.
+  static Communicator self() { return Communicator(MPI_COMM_SELF); }
   explicit Communicator(MPI_Comm handle) : handle_(handle) {}
 
   int rank() const;

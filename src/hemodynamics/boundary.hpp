@@ -1,0 +1,45 @@
+/// What is known at the rim of a network, checked and sorted by what the solver does with it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "network/graph.hpp"
+
+namespace rhexis::hemodynamics {
+
+/// Throws InputError, naming the vessel, where one ends outside of the graph, joins a junction to itself, or
+/// has a conductance that is not positive and finite.
+void check_vessels(const network::Graph& graph, std::span<const double> conductance);
+
+/// Conditions by kind. A pressure behind a resistance becomes a vessel to a junction of its own ('ghost')
+/// that has that pressure: ghost n is junction J + n.
+struct Boundary {
+  struct Fixed {
+    std::uint32_t junction;
+    double pressure;
+  };
+  struct Ghost {
+    std::uint32_t junction;  ///< of the graph
+    double pressure, conductance;
+  };
+  struct Inflow {
+    std::uint32_t junction;
+    double flow;
+  };
+  std::vector<Fixed> fixed;
+  std::vector<Ghost> ghosts;
+  std::vector<Inflow> inflows;
+  std::vector<bool> has_vessels;  ///< [J]
+};
+
+/// Throws InputError, naming the junction, where conditions contradict each other or mean nothing.
+Boundary sort_conditions(const network::Graph& graph, std::span<const network::Condition> conditions);
+
+/// Throws InputError for the component of `junction`, which has no condition of pressure, naming the first of
+/// its junctions.
+[[noreturn]] void throw_floating(const network::Graph& graph, std::uint32_t junction);
+
+}  // namespace rhexis::hemodynamics

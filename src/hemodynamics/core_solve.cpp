@@ -1,0 +1,66 @@
+#include "hemodynamics/core_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "hemodynamics/conjugate_gradients.hpp"
+#include "hemodynamics/vector_operations.hpp"
+#include "parallel/communicator.hpp"
+
+namespace rhexis::hemodynamics {
+namespace {
+
+// Fewer unknowns than this are not worth waking threads for.
+constexpr std::size_t serial_unknowns = 20000;
+
+// One round of conjugate gradients is not asked for more than doubles can give.
+constexpr double reduction_per_round = 1e-10;
+
+// Rounds in a row that bring less than a factor of two before it is said that nothing more is gained.
+constexpr int idle_rounds = 6;
+
+[[noreturn]] void fail(GraphSolver solver, const GraphSolverOptions& options, std::int64_t iterations,
+                       double reached) {
+  const std::string name(name_of(solver));
+  const bool out_of_iterations = iterations >= options.max_iterations;
+  throw RunError(
+      "solver '" + name + "' reached an imbalance of " + text(reached) + " of the inflow in " +
+      std::to_string(iterations) + " iterations, not the " + text(options.imbalance) +
+      " asked for: " + (solver == GraphSolver::approximate_cholesky ? "" : "use 'approximate_cholesky', ") +
+      (out_of_iterations ? "allow more iterations or a larger imbalance" : "allow a larger imbalance"));
+}
+
+}  // namespace
+
+std::int64_t solve_core(CoreSystem& system, GraphSolver solver, const GraphSolverOptions& options) {
+  const int threads = system.unknowns() < serial_unknowns ? 1 : parallel::thread_count();
+  const auto preconditioner = make_preconditioner(system, solver);
+  ConjugateGradients gradients(system, *preconditioner, threads);
+  std::vector<double> residual(system.unknowns()), correction(system.junctions());
+  std::int64_t iterations = 0;
+  double best = INFINITY;
+  for (int idle = 0;;) {
+    std::fill(correction.begin(), correction.end(), 0.0);
+    system.imbalance(residual, threads);
+    const double worst = largest(residual), inflow = system.inflow(correction);
+    const double resolution = system.resolution();
+    if (worst <= std::max(options.imbalance * inflow, resolution)) return iterations;
+    idle = worst < 0.5 * best ? 0 : idle + 1;
+    best = std::min(best, worst);
+    if (idle > idle_rounds || iterations >= options.max_iterations || !std::isfinite(worst)) {
+      fail(solver, options, iterations, worst / inflow);
+    }
+    // Half of what is asked for, as the residual that is carried along drifts from the true one.
+    const StopRule stop{.imbalance = 0.5 * options.imbalance,
+                        .least = std::max(resolution, reduction_per_round * worst),
+                        .max_iterations = options.max_iterations - iterations};
+    iterations += gradients.solve(residual, correction, stop);
+    system.add(std::span<const double>(correction).first(system.unknowns()));
+  }
+}
+
+}  // namespace rhexis::hemodynamics

@@ -1,0 +1,130 @@
+#include "hemodynamics/core_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "parallel/threads.hpp"
+
+namespace rhexis::hemodynamics {
+
+CoreSystem::CoreSystem(std::size_t unknowns, std::vector<CoreVessel> vessels, std::vector<double> injection,
+                       std::span<const double> fixed, double inflow_by_conditions)
+    : unknowns_(unknowns),
+      vessels_(std::move(vessels)),
+      injection_(std::move(injection)),
+      pressure_(unknowns + fixed.size()),
+      first_(unknowns + 1),
+      out_of_fixed_(fixed.size()),
+      inflow_by_conditions_(inflow_by_conditions) {
+  for (std::size_t f = 0; f < fixed.size(); ++f) pressure_[unknowns + f].high = fixed[f];
+  for (std::uint32_t v = 0; v < vessels_.size(); ++v) {
+    const auto [tail, head, conductance] = vessels_[v];
+    if (tail < unknowns) ++first_[tail];
+    if (head < unknowns) ++first_[head];
+    if (tail >= unknowns || head >= unknowns) at_fixed_.push_back(v);
+  }
+  std::inclusive_scan(first_.begin(), first_.end(), first_.begin());
+  column_.resize(first_.back());
+  weight_.resize(first_.back());
+  for (std::size_t v = vessels_.size(); v-- > 0;) {
+    const auto [tail, head, conductance] = vessels_[v];
+    const auto put = [&, g = conductance](std::uint32_t row, std::uint32_t column) {
+      if (row >= unknowns_) return;
+      column_[--first_[row]] = column;
+      weight_[first_[row]] = g;
+    };
+    put(head, tail);
+    put(tail, head);
+  }
+}
+
+double CoreSystem::weight_sum(std::size_t j) const {
+  const auto row = weights(j);
+  return std::accumulate(row.begin(), row.end(), 0.0);
+}
+
+void CoreSystem::apply(std::span<const double> x, std::span<double> result, int threads) const {
+  parallel::for_each_share(threads, unknowns_, [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      double sum = 0;
+      for (std::uint32_t k = first_[j]; k < first_[j + 1]; ++k) sum += weight_[k] * (x[j] - x[column_[k]]);
+      result[j] = sum;
+    }
+  });
+}
+
+void CoreSystem::imbalance(std::span<double> result, int threads) const {
+  parallel::for_each_share(threads, unknowns_, [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      double sum = injection_[j];
+      for (std::uint32_t k = first_[j]; k < first_[j + 1]; ++k) {
+        const TwoDoubles here = pressure_[j], there = pressure_[column_[k]];
+        sum -= weight_[k] * ((here.high - there.high) + (here.low - there.low));
+      }
+      result[j] = sum;
+    }
+  });
+}
+
+void CoreSystem::add(std::span<const double> x) {
+  for (std::size_t j = 0; j < unknowns_; ++j) {
+    auto& [high, low] = pressure_[j];
+    const double sum = high + x[j], part = sum - high;
+    low += (high - (sum - part)) + (x[j] - part);
+    high = sum + low;
+    low -= high - sum;
+  }
+}
+
+double CoreSystem::flow_along(const CoreVessel& vessel) const {
+  const TwoDoubles tail = pressure_[vessel.tail], head = pressure_[vessel.head];
+  return vessel.conductance * ((tail.high - head.high) + (tail.low - head.low));
+}
+
+double CoreSystem::inflow(std::span<const double> x) const {
+  std::transform(injection_.begin() + static_cast<std::ptrdiff_t>(unknowns_), injection_.end(),
+                 out_of_fixed_.begin(), [](double injection) { return -injection; });
+  for (const std::uint32_t v : at_fixed_) {
+    const auto& [tail, head, conductance] = vessels_[v];
+    const double flow = flow_along(vessels_[v]) + conductance * (x[tail] - x[head]);
+    if (tail >= unknowns_) out_of_fixed_[tail - unknowns_] += flow;
+    if (head >= unknowns_) out_of_fixed_[head - unknowns_] -= flow;
+  }
+  double sum = inflow_by_conditions_;
+  for (const double out : out_of_fixed_) sum += std::max(out, 0.0);
+  return sum;
+}
+
+double CoreSystem::resolution() const {
+  double largest = 0;
+  for (const auto& [tail, head, conductance] : vessels_) {
+    largest = std::max(
+        largest, conductance * std::max(std::abs(pressure_[tail].high), std::abs(pressure_[head].high)));
+  }
+  return 0x1p-98 * largest;
+}
+
+std::size_t CoreSystem::spread_fixed_pressures() {
+  std::vector<bool> reached(unknowns_);
+  std::vector<std::uint32_t> front;
+  const auto reach = [&](std::uint32_t j, double pressure) {
+    if (j >= unknowns_ || reached[j]) return;
+    reached[j] = true;
+    pressure_[j] = {pressure, 0};
+    front.push_back(j);
+  };
+  for (const std::uint32_t v : at_fixed_) {
+    const auto& [tail, head, conductance] = vessels_[v];
+    if (tail >= unknowns_) reach(head, pressure_[tail].high);
+    if (head >= unknowns_) reach(tail, pressure_[head].high);
+  }
+  while (!front.empty()) {
+    const std::uint32_t j = front.back();
+    front.pop_back();
+    for (const std::uint32_t k : neighbours(j)) reach(k, pressure_[j].high);
+  }
+  return static_cast<std::size_t>(std::find(reached.begin(), reached.end(), false) - reached.begin());
+}
+
+}  // namespace rhexis::hemodynamics
