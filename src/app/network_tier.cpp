@@ -3,7 +3,10 @@
 namespace rhexis::app {
 
 std::unique_ptr<NetworkTier> make_tier(const Configuration& c, parallel::Communicator comm) {
-  return make_implicit_tier(c, comm);
+  const bool is_tree = c.network.source == "tree";
+  if (c.network.tier == "implicit" || (c.network.tier == "auto" && is_tree))
+    return make_implicit_tier(c, comm);
+  return make_explicit_tier(c, comm);
 }
 
 }  // namespace rhexis::app

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -170,6 +171,27 @@ std::string_view name_of(GraphSolver solver) {
       return "amg";
   }
   return "";
+}
+
+void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions) {
+  const Boundary boundary = sort_conditions(graph, conditions);
+  // Every junction points towards the representative of its component, the one of the lowest number.
+  std::vector<std::uint32_t> towards(graph.junctions);
+  std::iota(towards.begin(), towards.end(), 0u);
+  const auto representative = [&](std::uint32_t j) {
+    while (towards[j] != j) j = towards[j] = towards[towards[j]];
+    return j;
+  };
+  for (std::size_t v = 0; v < graph.vessels(); ++v) {
+    const std::uint32_t a = representative(graph.from[v]), b = representative(graph.to[v]);
+    towards[std::max(a, b)] = std::min(a, b);
+  }
+  std::vector<bool> held(graph.junctions);
+  for (const auto& fixed : boundary.fixed) held[representative(fixed.junction)] = true;
+  for (const auto& ghost : boundary.ghosts) held[representative(ghost.junction)] = true;
+  for (std::uint32_t j = 0; j < graph.junctions; ++j) {
+    if (boundary.has_vessels[j] && !held[representative(j)]) throw_floating(graph, j);
+  }
 }
 
 GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,

@@ -34,6 +34,9 @@ struct GraphFlow {
   std::int64_t core_junctions = 0;              ///< unknowns left after reduction
 };
 
+/// Throws what `solve_flow` would throw of conditions and components, without solving anything.
+void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions);
+
 /// Pressures and flows for conductances [V] in m3/(s Pa). `conductance` is consumed (its memory is reused).
 /// Throws InputError, naming junction or vessel, for: a component that has vessels but no pressure condition;
 /// a conductance that is not positive and finite; a vessel from a junction to itself; two conditions at one

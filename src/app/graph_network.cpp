@@ -1,0 +1,123 @@
+#include "app/graph_network.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "app/console.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "hemodynamics/poiseuille.hpp"
+#include "network/tree_pair.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/threads.hpp"
+
+namespace rhexis::app {
+
+using network::Graph;
+using network::TreePair;
+
+std::string describe_source(const Configuration& c) {
+  if (c.network.source == "file") return fmt::format("{}", fmt::join(c.network.files, ", "));
+  return fmt::format("tree pair of {} generations, {} vessels in memory", c.tree.generations,
+                     grouped(static_cast<long long>(TreePair(c.tree).vessels())));
+}
+
+std::vector<network::Condition> tree_conditions(const Configuration& c, const TreePair& tree,
+                                                const hemodynamics::Hydrostatic& hydrostatic,
+                                                std::uint32_t inlet, std::uint32_t outlet) {
+  using Kind = network::Condition::Kind;
+  const hemodynamics::TreeBoundary b = hemodynamics::tree_boundary(c.hemodynamics);
+  const auto weight = [&](const network::Point& p) { return hydrostatic.pressure(p[0], p[1], p[2]); };
+  std::vector<network::Condition> conditions;
+  conditions.push_back(b.inlet_pressure ? network::Condition{inlet, Kind::pressure,
+                                                             *b.inlet_pressure - weight(tree.inlet()), 0}
+                                        : network::Condition{inlet, Kind::flow, *b.flow, 0});
+  conditions.push_back(
+      b.outlet_pressure ? network::Condition{outlet, Kind::pressure,
+                                             *b.outlet_pressure - weight(TreePair::mirrored(tree.inlet())), 0}
+                        : network::Condition{outlet, Kind::flow, -*b.flow, 0});
+  return conditions;
+}
+
+network::BoundedGraph make_graph_network(const Configuration& c,
+                                         const hemodynamics::Hydrostatic& hydrostatic) {
+  network::BoundedGraph network;
+  if (c.network.source == "tree") {
+    const TreePair tree(c.tree);
+    network.graph = tree.materialise();
+    network.conditions = tree_conditions(c, tree, hydrostatic, 0,
+                                         static_cast<std::uint32_t>(std::uint64_t{1} << c.tree.generations));
+    return network;
+  }
+  throw InputError("files cannot be read yet", "network.files");
+}
+
+void add_weight(const network::BoundedGraph& network, const hemodynamics::Hydrostatic& hydrostatic,
+                std::vector<double>& pressure) {
+  if (!hydrostatic.acts()) return;
+  const Graph& g = network.graph;
+  for (std::size_t j = 0; j < g.junctions; ++j) pressure[j] += hydrostatic.pressure(g.x[j], g.y[j], g.z[j]);
+}
+
+std::vector<double> conductances(const Graph& graph, const hemodynamics::Viscosity& viscosity,
+                                 std::span<const double> haematocrit) {
+  std::vector<double> conductance(graph.vessels());
+  parallel::for_each_share(
+      parallel::thread_count(), graph.vessels(), [&](int, std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+          const double h = haematocrit.empty() ? viscosity.haematocrit : haematocrit[v];
+          const double eta = hemodynamics::apparent_viscosity(viscosity, graph.radius[v], h);
+          conductance[v] = 1 / hemodynamics::poiseuille_resistance(graph.radius[v], graph.length[v], eta);
+        }
+      });
+  return conductance;
+}
+
+hemodynamics::GraphSolverOptions solver_options(const Configuration& c) {
+  using hemodynamics::GraphSolver;
+  hemodynamics::GraphSolverOptions options;
+  for (const GraphSolver solver :
+       {GraphSolver::automatic, GraphSolver::elimination, GraphSolver::ldlt,
+        GraphSolver::approximate_cholesky, GraphSolver::jacobi, GraphSolver::amg}) {
+    if (hemodynamics::name_of(solver) == c.network.solver) options.solver = solver;
+  }
+  options.imbalance = c.network.imbalance;
+  options.max_iterations = c.network.max_iterations;
+  return options;
+}
+
+std::uint32_t find_vessel(const Configuration& c, const Graph& graph, const std::string& name) {
+  if (c.network.source == "tree") return static_cast<std::uint32_t>(TreePair(c.tree).id_of(name));
+  if (!graph.vessel_name.empty()) {
+    const auto found = std::find(graph.vessel_name.begin(), graph.vessel_name.end(), name);
+    if (found != graph.vessel_name.end())
+      return static_cast<std::uint32_t>(found - graph.vessel_name.begin());
+  } else if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos && name.size() < 10) {
+    const auto number = static_cast<std::size_t>(std::stoul(name));
+    if (number < graph.vessels()) return static_cast<std::uint32_t>(number);
+  }
+  throw InputError("there is no vessel '" + name + "' in " + c.network.files.back(), "network.query");
+}
+
+std::vector<std::uint32_t> widest_vessels(const Graph& graph, std::size_t count) {
+  std::vector<std::uint32_t> vessels(graph.vessels());
+  std::iota(vessels.begin(), vessels.end(), 0u);
+  if (count >= vessels.size()) return vessels;
+  const auto wider = [&](std::uint32_t a, std::uint32_t b) {
+    return graph.radius[a] != graph.radius[b] ? graph.radius[a] > graph.radius[b] : a < b;
+  };
+  std::nth_element(vessels.begin(), vessels.begin() + static_cast<std::ptrdiff_t>(count), vessels.end(),
+                   wider);
+  vessels.resize(count);
+  std::sort(vessels.begin(), vessels.end());
+  return vessels;
+}
+
+std::size_t most_shown(const Configuration& c) {
+  const std::int64_t usual = c.network.source == "tree" ? 20000 : 5000000;
+  return static_cast<std::size_t>(c.network.shown_vessels.value_or(usual));
+}
+
+}  // namespace rhexis::app

@@ -1,0 +1,49 @@
+/// Explicit networks from the configuration: what the tiers that hold a graph have in common.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/configuration.hpp"
+#include "hemodynamics/graph_flow.hpp"
+#include "hemodynamics/hydrostatic.hpp"
+#include "network/graph.hpp"
+
+namespace rhexis::app {
+
+/// Of the files, or of the tree's rules, for the header.
+std::string describe_source(const Configuration& c);
+
+/// Graph and conditions, read or materialised; the weight of blood is taken off the conditions' pressures.
+/// Throws InputError.
+network::BoundedGraph make_graph_network(const Configuration& c,
+                                         const hemodynamics::Hydrostatic& hydrostatic);
+
+/// The two conditions of a tree between junctions `inlet` and `outlet`, without the weight of blood at their
+/// places.
+std::vector<network::Condition> tree_conditions(const Configuration& c, const network::TreePair& tree,
+                                                const hemodynamics::Hydrostatic& hydrostatic,
+                                                std::uint32_t inlet, std::uint32_t outlet);
+
+/// Adds the weight of blood to the pressures [J] of the solver.
+void add_weight(const network::BoundedGraph& network, const hemodynamics::Hydrostatic& hydrostatic,
+                std::vector<double>& pressure);
+
+/// Of every vessel by Eq. (9), m3/(s Pa); `haematocrit` [V], or empty: the inflowing blood's.
+std::vector<double> conductances(const network::Graph& graph, const hemodynamics::Viscosity& viscosity,
+                                 std::span<const double> haematocrit);
+
+hemodynamics::GraphSolverOptions solver_options(const Configuration& c);
+
+/// The vessel of a name in a file, of an id or path in a tree. Throws InputError (network.query) where there
+/// is none.
+std::uint32_t find_vessel(const Configuration& c, const network::Graph& graph, const std::string& name);
+
+/// At most `count` vessels, the widest, in ascending order of their numbers.
+std::vector<std::uint32_t> widest_vessels(const network::Graph& graph, std::size_t count);
+
+/// network.shown_vessels.
+std::size_t most_shown(const Configuration& c);
+
+}  // namespace rhexis::app
