@@ -66,9 +66,15 @@ std::vector<double> conductances(const Graph& graph, const hemodynamics::Viscosi
   std::vector<double> conductance(graph.vessels());
   parallel::for_each_share(
       parallel::thread_count(), graph.vessels(), [&](int, std::size_t begin, std::size_t end) {
+        // Artery and vein of a tree are neighbours and often alike.
+        double radius = 0, h = 0, eta = 0;
         for (std::size_t v = begin; v < end; ++v) {
-          const double h = haematocrit.empty() ? viscosity.haematocrit : haematocrit[v];
-          const double eta = hemodynamics::apparent_viscosity(viscosity, graph.radius[v], h);
+          const double own = haematocrit.empty() ? viscosity.haematocrit : haematocrit[v];
+          if (graph.radius[v] != radius || own != h) {
+            radius = graph.radius[v];
+            h = own;
+            eta = hemodynamics::apparent_viscosity(viscosity, radius, h);
+          }
           conductance[v] = 1 / hemodynamics::poiseuille_resistance(graph.radius[v], graph.length[v], eta);
         }
       });

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "hemodynamics/interval_table.hpp"
+#include "network/interval_table.hpp"
 #include "network/random_stream.hpp"
 
 #if HWY_TARGET <= HWY_AVX3
@@ -94,11 +94,11 @@ HWY_INLINE void load_rows(const double* const row[8], __m512d out[8]) {
 #endif
 
 /// The table's value in each lane; the same digits as its scalar operator().
-HWY_INLINE Real value_of(const IntervalTable& table, Real argument) {
+HWY_INLINE Real value_of(const network::IntervalTable& table, Real argument) {
   const Reals d;
   const Words w;
   const hn::RebindToSigned<Reals> di;
-  constexpr int n = IntervalTable::coefficients;
+  constexpr int n = network::IntervalTable::coefficients;
   const auto bits = hn::BitCast(w, argument);
   const auto row =
       hn::Sub(hn::BitCast(di, hn::ShiftRightSame(bits, table.shift())), hn::Set(di, table.first_row()));

@@ -6,13 +6,13 @@
 
 namespace rhexis::hemodynamics {
 
-TreeLaw::TreeLaw(const network::TreePair& tree, const Viscosity& viscosity) {
+TreeLaw::TreeLaw(const network::TreePair& tree, const Viscosity& viscosity) : radius(tree.radius_table()) {
   const network::TreeRules& rules = tree.rules();
   seed = rules.seed;
   random_splits = rules.random_splits();
   random_lengths = rules.random_lengths();
   least_offset = rules.wider_share(rules.asymmetry) - 0.5;
-  offset_range = rules.wider_share(rules.least_asymmetry) - 0.5 - least_offset;
+  offset_range = random_splits ? rules.wider_share(rules.least_asymmetry) - 0.5 - least_offset : 0;
   length_spread = rules.length_spread;
 
   const long double root = rules.root_radius, power = 1 / static_cast<long double>(rules.exponent);
@@ -25,7 +25,7 @@ TreeLaw::TreeLaw(const network::TreePair& tree, const Viscosity& viscosity) {
     return rules.length_by_radius.empty() ? r : rules.length_at(r);
   };
 
-  const double least = std::pow(0.5 - least_offset - offset_range, rules.generations - 1) * (1 - 1e-6);
+  const double least = tree.least_capacity();
   std::vector<double> length_kinks, artery_kinks, vein_kinks;
   for (const auto& [r, l] : rules.length_by_radius) length_kinks.push_back(capacity_of(r));
   artery_kinks = vein_kinks = length_kinks;
@@ -38,19 +38,19 @@ TreeLaw::TreeLaw(const network::TreePair& tree, const Viscosity& viscosity) {
         r * ratio, length_of(r),
         apparent_viscosity(viscosity, r * ratio, static_cast<long double>(viscosity.haematocrit)));
   };
-  artery_resistance =
-      IntervalTable([=](long double a) { return resistance(radius_of(a), 1); }, least, 1, artery_kinks);
+  artery_resistance = network::IntervalTable([=](long double a) { return resistance(radius_of(a), 1); },
+                                             least, 1, artery_kinks);
   const long double ratio = rules.vein_radius_ratio;
   vein_follows = ratio == 1 || viscosity.law == ViscosityLaw::constant;
   if (vein_follows) {
     vein_factor = static_cast<double>(1 / (ratio * ratio * ratio * ratio));
   } else {
-    vein_resistance =
-        IntervalTable([=](long double a) { return resistance(radius_of(a), ratio); }, least, 1, vein_kinks);
+    vein_resistance = network::IntervalTable([=](long double a) { return resistance(radius_of(a), ratio); },
+                                             least, 1, vein_kinks);
   }
-  radius = IntervalTable(radius_of, least, 1);
   if (!length_is_radius) {
-    length = IntervalTable([=](long double a) { return length_of(radius_of(a)); }, least, 1, length_kinks);
+    length = network::IntervalTable([=](long double a) { return length_of(radius_of(a)); }, least, 1,
+                                    length_kinks);
   }
   generation_factor.assign(static_cast<std::size_t>(rules.generations),
                            length_is_radius ? rules.length_ratio : 1.0);

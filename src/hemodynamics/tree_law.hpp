@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "hemodynamics/interval_table.hpp"
 #include "hemodynamics/viscosity.hpp"
+#include "network/interval_table.hpp"
 #include "network/tree_pair.hpp"
 
 namespace rhexis::hemodynamics {
@@ -15,15 +15,15 @@ struct TreeLaw {
   TreeLaw(const network::TreePair& tree, const Viscosity& viscosity);
 
   /// Resistance (Pa s/m3, Eq. 9) of an artery of unit length factor.
-  IntervalTable artery_resistance;
+  network::IntervalTable artery_resistance;
   /// Of its vein; empty where that is `vein_factor` times the artery's.
-  IntervalTable vein_resistance;
+  network::IntervalTable vein_resistance;
   bool vein_follows = true;
   double vein_factor = 1;
-  /// Radius of the artery (m).
-  IntervalTable radius;
+  /// Radius of the artery (m): the tree's, which must outlive this.
+  const network::IntervalTable& radius;
   /// Length (m) at unit length factor; empty where that is the radius.
-  IntervalTable length;
+  network::IntervalTable length;
   bool length_is_radius = true;
   /// Factor on lengths of a generation.
   std::vector<double> generation_factor;

@@ -124,9 +124,9 @@ struct Context {
   Bins pressure_bins, flow_bins, stress_bins;
   double vein_ratio = 1;
   bool stress_by_radius[2]{};
-  double stress_factor[2]{};      ///< where it does not depend on the radius
-  IntervalTable stress_table[2];  ///< of the artery's radius
-  double narrow_radius[2]{};      ///< of the artery
+  double stress_factor[2]{};               ///< where it does not depend on the radius
+  network::IntervalTable stress_table[2];  ///< of the artery's radius
+  double narrow_radius[2]{};               ///< of the artery
   double scale[quantities]{};
 };
 
@@ -278,9 +278,7 @@ Context make_context(const TreeFlow& flow, const Viscosity& viscosity) {
   c.flow_bins = {true, std::size_t{1} << flow_shift, 0, std::abs(flow.flow())};
   c.vein_ratio = rules.vein_radius_ratio;
   const double widest = rules.root_radius;
-  const double narrowest =
-      flow.tree().radius_of(std::pow(1 - rules.wider_share(rules.least_asymmetry), rules.generations - 1)) *
-      (1 - 1e-6);
+  const double narrowest = flow.tree().radius_of(flow.tree().least_capacity()) * (1 - 1e-6);
   double largest_factor = 0;
   for (int kind = 0; kind < 2; ++kind) {
     const network::Wall& wall = kind == 0 ? rules.artery_wall : rules.vein_wall;
@@ -291,7 +289,7 @@ Context make_context(const TreeFlow& flow, const Viscosity& viscosity) {
     c.stress_by_radius[kind] = wall.rule == network::WallRule::radius;
     c.stress_factor[kind] = static_cast<double>(factor(widest));
     if (c.stress_by_radius[kind])
-      c.stress_table[kind] = IntervalTable(factor, narrowest, widest * (1 + 1e-6));
+      c.stress_table[kind] = network::IntervalTable(factor, narrowest, widest * (1 + 1e-6));
     largest_factor = std::max(
         {largest_factor, static_cast<double>(factor(widest)), static_cast<double>(factor(narrowest))});
     c.narrow_radius[kind] =

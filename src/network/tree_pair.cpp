@@ -25,7 +25,9 @@ double murray_cosine(double r0, double r1, double r2) {
 
 TreePair::TreePair(TreeRules rules) : rules_(std::move(rules)) {
   least_offset_ = rules_.wider_share(rules_.asymmetry) - 0.5;
-  most_offset_ = rules_.wider_share(rules_.least_asymmetry) - 0.5;
+  most_offset_ = rules_.random_splits() ? rules_.wider_share(rules_.least_asymmetry) - 0.5 : least_offset_;
+  const long double root = rules_.root_radius, power = 1 / static_cast<long double>(rules_.exponent);
+  radius_ = IntervalTable([=](long double a) { return root * std::pow(a, power); }, least_capacity(), 1);
   // Along the axis, a symmetric subtree reaches its root's length and what its daughters reach.
   const double ratio = std::pow(0.5, 1 / rules_.exponent);
   const double cosine = murray_cosine(1, ratio, ratio);
@@ -93,8 +95,9 @@ double TreePair::capacity(std::uint64_t place) const {
   return capacity;
 }
 
-double TreePair::radius_of(double capacity) const {
-  return rules_.root_radius * std::pow(capacity, 1 / rules_.exponent);
+double TreePair::least_capacity() const {
+  return std::pow(0.5 - most_offset_, generations() - 1) *
+         (1 - 1e-6);  // a margin for roundings on the way down
 }
 
 double TreePair::length_factor(std::uint64_t place) const {

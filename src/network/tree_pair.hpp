@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "network/graph.hpp"
+#include "network/interval_table.hpp"
 #include "network/tree_rules.hpp"
 
 namespace rhexis::network {
@@ -60,7 +61,8 @@ class TreePair {
   double first_share(std::uint64_t place) const;
   /// (r / r_root)^xi of an artery: a product down from the root, O(k).
   double capacity(std::uint64_t place) const;
-  double radius_of(double capacity) const;
+  double radius_of(double capacity) const { return radius_(capacity); }  ///< of an artery, m
+  const IntervalTable& radius_table() const { return radius_; }
   /// The vessel's own factor on its length (1 without spread).
   double length_factor(std::uint64_t place) const;
   /// Geometry of a vessel, O(k). Throws InputError for an id that does not exist.
@@ -79,6 +81,8 @@ class TreePair {
   Point inlet() const { return {-reach_, 0, 0}; }
   static Point mirrored(const Point& p) { return {-p[0], p[1], p[2]}; }
   Place root_place() const;
+  /// No artery has less capacity than this.
+  double least_capacity() const;
   /// Both daughters of `place`, whose own state is `at`.
   std::array<Place, 2> daughters(std::uint64_t place, const Place& at) const;
 
@@ -86,6 +90,7 @@ class TreePair {
   double advance_share(int generation, double radius, double length, double cosine) const;
 
   TreeRules rules_;
+  IntervalTable radius_;
   double least_offset_ = 0, most_offset_ = 0;  ///< of the wider daughter's share above 1/2
   std::vector<double> reach_per_radius_;  ///< [k + 1] how far a symmetric subtree reaches along the axis, in
                                           ///< radii of its root

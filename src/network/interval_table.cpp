@@ -1,10 +1,10 @@
-#include "hemodynamics/interval_table.hpp"
+#include "network/interval_table.hpp"
 
 #include <array>
 #include <limits>
 #include <numbers>
 
-namespace rhexis::hemodynamics {
+namespace rhexis::network {
 namespace {
 
 constexpr int mantissa_bits = 52;
@@ -91,4 +91,4 @@ bool IntervalTable::fill(double low, double high, int bits, const std::vector<do
   return true;
 }
 
-}  // namespace rhexis::hemodynamics
+}  // namespace rhexis::network

@@ -14,7 +14,7 @@
 #include <functional>
 #include <vector>
 
-namespace rhexis::hemodynamics {
+namespace rhexis::network {
 
 class IntervalTable {
  public:
@@ -63,4 +63,4 @@ class IntervalTable {
   double largest_error_ = 0;
 };
 
-}  // namespace rhexis::hemodynamics
+}  // namespace rhexis::network
