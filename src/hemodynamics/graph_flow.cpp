@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/large_array.hpp"
 #include "hemodynamics/boundary.hpp"
 #include "hemodynamics/core_solve.hpp"
 #include "hemodynamics/reduction.hpp"
@@ -20,12 +21,12 @@ Reduction reducible(const network::Graph& graph, std::vector<double> conductance
   const std::size_t junctions = graph.junctions + boundary.ghosts.size();
   const std::size_t vessels = graph.vessels() + boundary.ghosts.size();
   std::vector<std::uint32_t> tail, head;
-  tail.reserve(vessels);
-  head.reserve(vessels);
+  reserve_large(tail, vessels);
+  reserve_large(head, vessels);
   conductance.reserve(vessels);
   tail.assign(graph.from.begin(), graph.from.end());
   head.assign(graph.to.begin(), graph.to.end());
-  std::vector<double> injection(junctions);
+  auto injection = large_array<double>(junctions);
   std::vector<bool> kept(junctions);
   for (std::size_t n = 0; n < boundary.ghosts.size(); ++n) {
     tail.push_back(boundary.ghosts[n].junction);
@@ -129,7 +130,8 @@ GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> cond
 
 /// Fills in inflow and imbalance of the flows as they are, and forgets the ghosts.
 void judge(const network::Graph& graph, const Boundary& boundary, double smallest_inflow, GraphFlow& result) {
-  std::vector<double> outflow(graph.junctions);  // through vessels and ghosts, less what a condition injects
+  auto outflow =
+      large_array<double>(graph.junctions);  // through vessels and ghosts, less what a condition injects
   for (std::size_t v = 0; v < graph.vessels(); ++v) {
     outflow[graph.from[v]] += result.flow[v];
     outflow[graph.to[v]] -= result.flow[v];

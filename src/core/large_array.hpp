@@ -1,0 +1,35 @@
+/// Room for arrays of millions of entries in large pages, where the system has them: first touch and random
+/// access are about twice as fast.
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rhexis {
+
+/// Reserves room for `count` entries in an empty vector.
+template <class T>
+void reserve_large(std::vector<T>& array, std::size_t count) {
+  array.reserve(count);
+#ifdef MADV_HUGEPAGE
+  constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+  const auto address = reinterpret_cast<std::uintptr_t>(array.data());
+  const std::uintptr_t begin = (address + page - 1) / page * page;
+  const std::uintptr_t end = (address + count * sizeof(T)) / page * page;
+  // Only a hint: an answer of no changes nothing.
+  if (begin < end) (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+#endif
+}
+
+template <class T>
+std::vector<T> large_array(std::size_t count, T value = T{}) {
+  std::vector<T> array;
+  reserve_large(array, count);
+  array.resize(count, value);
+  return array;
+}
+
+}  // namespace rhexis
