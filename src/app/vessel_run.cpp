@@ -166,7 +166,7 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   }
   if (with_pictures) {
     const Stopwatch watch(spent_.insitu);
-    pipeline_->process(*source_);
+    pipeline_->process({.particles = source_.get(), .network = nullptr});
   }
 }
 

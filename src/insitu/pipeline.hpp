@@ -4,7 +4,7 @@
 ///     const insitu::Settings settings{.scripts = {"/home/me/vessel.py"}, .image_directory = "images"};
 ///     auto pipeline = insitu::load_pipeline(settings, parallel::Communicator::world());
 ///     for (...) {                                       // every rank calls all of these, in the same order
-///       if (pipeline->wants(source.step(), source.time_s())) pipeline->process(source);
+///       if (pipeline->wants(step, time_s)) pipeline->process({.particles = &body, .network = nullptr});
 ///     }
 ///     pipeline->finish();                               // before MPI ends
 #pragma once
@@ -35,10 +35,23 @@ struct NotAvailable : RunError {
   using RunError::RunError;
 };
 
-/// Catalyst scripts at work on one body, which they know as the channel `particles`. A script says which
-/// fields it needs by a line such as `fields = ["displacement", "damage"]` (literal strings, outside any
-/// function); without the line it gets all. All calls are collective, and what they throw they throw on every
-/// rank.
+/// What a run shows at one moment; null is what it does not have, on all ranks alike (never both). Where
+/// there are both, step and time are those of the particles.
+struct Channels {
+  PointSource* particles = nullptr;
+  LineSource* network = nullptr;
+};
+
+/// Catalyst scripts at work on what a run shows, which they know as the channels `particles` and `network`
+/// (or by the names of the saved files, `particles.xdmf` and `network.xdmf`).
+///
+/// A script says which fields it needs by lines such as
+///     fields = ["displacement", "damage"]      # of the particles
+///     network_fields = ["pressure", "radius"]  # of the network
+/// (literal strings, outside any function). Without a channel's line it gets all fields of that channel if it
+/// names the channel (as `registrationName` or to `GetTrivialProducer`), and if it says nothing of either,
+/// all of both. A channel that a script does not ask for is not made for it. All calls are collective, and
+/// what they throw they throw on every rank.
 class Pipeline {
  public:
   Pipeline() = default;
@@ -53,11 +66,12 @@ class Pipeline {
   /// until then the answer is yes.
   virtual bool wants(long step, double time_s) = 0;
 
-  /// Runs the scripts that want this step. The source's memory is read, not copied, and not touched after the
-  /// return. Throws RunError, naming script, line and reason, if a script fails on any rank. Should ranks get
+  /// Runs the scripts that want this step. The sources' memory is read, not copied, and not touched after the
+  /// return. Throws RunError, naming script, line and reason, if a script fails on any rank, or asks for a
+  /// channel that the run does not have or a field that the channel does not have. Should ranks get
   /// stuck because a script raised on one while the others wait for it inside ParaView, the program is ended
   /// (MPI_Abort, status 3) after RHEXIS_SCRIPT_TIMEOUT seconds (environment variable, default 60).
-  virtual void process(PointSource& source) = 0;
+  virtual void process(const Channels& channels) = 0;
 
   /// Ends scripts and ParaView (as the destructor does, which however cannot tell that a script failed in
   /// doing so); no other call may follow, and MPI must not end before. A process can load one pipeline only.

@@ -1,5 +1,8 @@
-// Runs Catalyst scripts on a synthetic vessel, as the solver would; checked by test_insitu.py.
-//   insitu_driver IMAGE_DIRECTORY RENDERER FRAMES SCRIPT...
+// Runs Catalyst scripts on a synthetic vessel, network or both, as the solver would; checked by
+// test_insitu.py.
+//   insitu_driver IMAGE_DIRECTORY RENDERER CHANNELS FRAMES SCRIPT...
+// CHANNELS: particles | network | both; a network may say of what kind, e.g. network:spatial:11 (planar,
+// spatial, unknown; generations of each tree; 4 without).
 // Prints JSON lines: one when loaded, one per frame, one at the end; `error: ...` on failure (status 3).
 #include <sys/resource.h>
 
@@ -8,6 +11,7 @@
 #include <map>
 
 #include "insitu/pipeline.hpp"
+#include "synthetic_network.hpp"
 #include "synthetic_vessel.hpp"
 
 namespace {
@@ -18,7 +22,16 @@ double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void run(const rhexis::insitu::Settings& settings, int frames, rhexis::parallel::Communicator world) {
+void print_asked(const std::map<std::string, int>& asked) {
+  const char* comma = "";
+  for (const auto& [name, count] : asked) {
+    std::printf(R"(%s"%s": %d)", comma, name.c_str(), count);
+    comma = ", ";
+  }
+}
+
+void run(const rhexis::insitu::Settings& settings, const std::string& channels, int frames,
+         rhexis::parallel::Communicator world) {
   const double start = now_s();
   const auto pipeline = rhexis::insitu::load_pipeline(settings, world);
   if (world.is_root()) {
@@ -27,11 +40,18 @@ void run(const rhexis::insitu::Settings& settings, int frames, rhexis::parallel:
                 pipeline->description().c_str(), now_s() - start);
   }
   rhexis::test::SyntheticVessel vessel(world.rank(), world.size());
+  rhexis::test::SyntheticNetwork network(channels, world.rank(), world.size());
+  const bool with_vessel = !channels.starts_with("network"), with_network = channels != "particles";
   for (int frame = 0; frame < frames; ++frame) {
     const double begin = now_s();
-    vessel.advance(50L * frame, frames > 1 ? static_cast<double>(frame) / (frames - 1) : 1);
+    const double progress = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 1;
+    vessel.advance(50L * frame, progress);
+    network.advance(50L * frame, progress);
     const bool wanted = pipeline->wants(vessel.step(), vessel.time_s());
-    if (wanted) pipeline->process(vessel);
+    if (wanted) {
+      pipeline->process(
+          {.particles = with_vessel ? &vessel : nullptr, .network = with_network ? &network : nullptr});
+    }
     if (world.is_root()) {
       std::printf(R"({"step": %ld, "wanted": %d, "seconds": %.3f})"
                   "\n",
@@ -43,11 +63,9 @@ void run(const rhexis::insitu::Settings& settings, int frames, rhexis::parallel:
   getrusage(RUSAGE_SELF, &usage);
   if (!world.is_root()) return;
   std::printf(R"({"peak_MB": %ld, "asked": {)", usage.ru_maxrss / 1024);
-  const char* comma = "";
-  for (const auto& [name, count] : vessel.asked) {
-    std::printf(R"(%s"%s": %d)", comma, name.c_str(), count);
-    comma = ", ";
-  }
+  print_asked(vessel.asked);
+  std::printf(R"(}, "asked_of_network": {)");
+  print_asked(network.asked);
   std::printf("}}\n");
 }
 
@@ -61,8 +79,8 @@ int main(int argc, char** argv) {
                                                      {"egl", Renderer::egl},
                                                      {"x11", Renderer::x11}};
   try {
-    run({.scripts = {argv + 4, argv + argc}, .image_directory = argv[1], .renderer = renderers.at(argv[2])},
-        std::stoi(argv[3]), world);
+    run({.scripts = {argv + 5, argv + argc}, .image_directory = argv[1], .renderer = renderers.at(argv[2])},
+        argv[3], std::stoi(argv[4]), world);
   } catch (const rhexis::insitu::NotAvailable& error) {
     if (world.is_root()) std::printf("%s\n", error.what());
     return 4;

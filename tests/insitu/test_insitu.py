@@ -60,10 +60,10 @@ class DriverTest(unittest.TestCase):
         path.write_text(text)
         return path
 
-    def run_driver(self, *scripts, frames=2, ranks=1, renderer="automatic", status=0):
+    def run_driver(self, *scripts, frames=2, ranks=1, renderer="automatic", status=0, channels="particles"):
         """Output lines of a run; errors of VTK or Python on stderr fail the test."""
         command = [*MPIRUN, "-n", str(ranks)] if ranks > 1 else []
-        command += [DRIVER, str(self.images), renderer, str(frames), *map(str, scripts)]
+        command += [DRIVER, str(self.images), renderer, channels, str(frames), *map(str, scripts)]
         result = subprocess.run(command, env=ENVIRONMENT, cwd=self.folder, capture_output=True, text=True, timeout=50)
         self.assertEqual(result.returncode, status, result.stdout + result.stderr)
         errors = complaints(result.stderr)
@@ -72,9 +72,9 @@ class DriverTest(unittest.TestCase):
         self.errors = errors
         return result.stdout.splitlines()
 
-    def failure(self, *scripts, ranks=1, frames=2):
+    def failure(self, *scripts, ranks=1, frames=2, channels="particles"):
         """The one message that every rank gives when a script fails."""
-        messages = [line for line in self.run_driver(*scripts, ranks=ranks, frames=frames, status=3) if "error:" in line]
+        messages = [line for line in self.run_driver(*scripts, ranks=ranks, frames=frames, status=3, channels=channels) if "error:" in line]
         self.assertEqual(len(messages), ranks)
         self.assertEqual(len(set(messages)), 1)
         self.assertNotIn("Traceback", self.errors)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <span>
 
 #include "insitu/window/headless_window.hpp"
 
@@ -71,6 +72,38 @@ std::string failure_of(Action action) {
   }
 }
 
+/// Throws where a script says that it needs a channel which the run does not have.
+void require_channels(const CatalystScript& script, const PerChannel<bool>& present) {
+  for (std::size_t channel = 0; channel < channel_count; ++channel) {
+    if (present[channel] || !script.wishes()[channel].required) continue;
+    std::string list;
+    for (std::size_t other = 0; other < channel_count; ++other) {
+      if (present[other]) list += (list.empty() ? "" : ", ") + std::string(channel_names[other].front());
+    }
+    throw RunError("Catalyst script " + script.path() + " asks for the channel '" +
+                   channel_names[channel].front() + "', which this run does not have; there are: " + list);
+  }
+}
+
+/// The fields that a script needs of a channel; throws where there is none of a name that it declares.
+std::vector<std::string> fields_of(const CatalystScript& script, std::size_t channel,
+                                   std::span<const FieldInfo> fields) {
+  std::vector<std::string> available;
+  std::string list;
+  for (const FieldInfo& field : fields) {
+    available.emplace_back(field.name);
+    list += (list.empty() ? "" : ", ") + available.back();
+  }
+  const auto& declared = script.wishes()[channel].fields;
+  if (!declared) return available;
+  for (const std::string& name : *declared) {
+    if (std::ranges::find(available, name) != available.end()) continue;
+    throw RunError("Catalyst script " + script.path() + " asks for the field '" + name +
+                   "'; there are: " + list);
+  }
+  return *declared;
+}
+
 }  // namespace
 
 CatalystPipeline::CatalystPipeline(const Settings& settings, parallel::Communicator communicator)
@@ -89,7 +122,7 @@ CatalystPipeline::CatalystPipeline(const Settings& settings, parallel::Communica
     guard_.emplace(agreement_, std::filesystem::absolute(settings.image_directory).string());
     add_scripts(settings);
   }));
-  grid_.emplace();
+  grids_.emplace();
   if (!agreement_.failure().empty()) close();
   throw_if_failed();
 }
@@ -107,8 +140,7 @@ void CatalystPipeline::start_paraview() {
 
 void CatalystPipeline::add_scripts(const Settings& settings) {
   for (const std::string& path : settings.scripts) {
-    auto fields = guard_->declared_fields(path);
-    scripts_.push_back(std::make_unique<CatalystScript>(path, std::move(fields)));
+    scripts_.push_back(std::make_unique<CatalystScript>(path, guard_->wishes(path)));
   }
 }
 
@@ -125,38 +157,44 @@ bool CatalystPipeline::wants(long step, double time_s) {
   return !scripts_wanting(step, time_s).empty();
 }
 
-std::vector<std::string> CatalystPipeline::needed_fields(const PointSource& source,
-                                                         const std::vector<CatalystScript*>& scripts) const {
-  std::vector<std::string> available;
-  std::string list;
-  for (const FieldInfo& field : source.fields()) {
-    available.emplace_back(field.name);
-    list += (list.empty() ? "" : ", ") + available.back();
-  }
+Grids CatalystPipeline::lend(const Channels& channels, const std::vector<CatalystScript*>& scripts) {
+  const PerChannel<bool> present = {channels.particles != nullptr, channels.network != nullptr};
+  for (const CatalystScript* script : scripts) require_channels(*script, present);
+  Grids grids{};
+  if (channels.particles != nullptr) grids[0] = lend_channel(0, *channels.particles, scripts);
+  if (channels.network != nullptr) grids[1] = lend_channel(1, *channels.network, scripts);
+  return grids;
+}
+
+template <class Source>
+vtkPolyData* CatalystPipeline::lend_channel(std::size_t channel, Source& source,
+                                            const std::vector<CatalystScript*>& scripts) {
   std::vector<std::string> needed;
+  bool wanted = false;
   for (const CatalystScript* script : scripts) {
-    for (const std::string& name : script->fields().value_or(available)) {
-      if (std::ranges::find(available, name) == available.end()) {
-        throw RunError("Catalyst script " + script->path() + " asks for the field '" + name +
-                       "'; there are: " + list);
-      }
+    if (!script->wishes()[channel].wanted) continue;
+    wanted = true;
+    for (const std::string& name : fields_of(*script, channel, source.fields())) {
       if (std::ranges::find(needed, name) == needed.end()) needed.push_back(name);
     }
   }
-  return needed;
+  return wanted ? (*grids_)[channel].lend(source, needed) : nullptr;
 }
 
-void CatalystPipeline::process(PointSource& source) {
-  const auto scripts = scripts_wanting(source.step(), source.time_s());
+void CatalystPipeline::process(const Channels& channels) {
+  const bool of_particles = channels.particles != nullptr;
+  const long step = of_particles ? channels.particles->step() : channels.network->step();
+  const double time_s = of_particles ? channels.particles->time_s() : channels.network->time_s();
+  const auto scripts = scripts_wanting(step, time_s);
   if (scripts.empty()) return;
-  vtkPolyData* grid = nullptr;
-  agreement_.agree(failure_of([&] { grid = grid_->lend(source, needed_fields(source, scripts)); }));
+  Grids grids{};
+  agreement_.agree(failure_of([&] { grids = lend(channels, scripts); }));
   for (CatalystScript* script : scripts) {
     if (!agreement_.failure().empty()) break;
-    script->run(grid, source.step(), source.time_s());
+    script->run(grids, step, time_s);
     agreement_.agree(guard_->take_noted(script->path()));
   }
-  grid_->release();
+  for (BorrowedGrid& grid : *grids_) grid.release();
   throw_if_failed();
 }
 
@@ -171,7 +209,7 @@ void CatalystPipeline::close() {
   for (const auto& script : scripts_) script->finish();
   scripts_.clear();
   if (guard_) guard_->forget_scripts();
-  grid_.reset();
+  grids_.reset();
   processor_->Finalize();
   processor_ = nullptr;
 }

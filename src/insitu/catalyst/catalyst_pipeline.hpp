@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "insitu/catalyst/agreement.hpp"
+#include "insitu/catalyst/borrowed_grid.hpp"
 #include "insitu/catalyst/catalyst_script.hpp"
-#include "insitu/catalyst/particle_grid.hpp"
 #include "insitu/catalyst/script_guard.hpp"
 #include "insitu/pipeline.hpp"
 
@@ -37,14 +37,15 @@ class CatalystPipeline : public Pipeline {
 
   std::string description() const override { return description_; }
   bool wants(long step, double time_s) override;
-  void process(PointSource& source) override;
+  void process(const Channels& channels) override;
   void finish() override;
 
  private:
   void start_paraview();
   void add_scripts(const Settings& settings);
-  std::vector<std::string> needed_fields(const PointSource& source,
-                                         const std::vector<CatalystScript*>& scripts) const;
+  Grids lend(const Channels& channels, const std::vector<CatalystScript*>& scripts);
+  template <class Source>
+  vtkPolyData* lend_channel(std::size_t channel, Source& source, const std::vector<CatalystScript*>& scripts);
   std::vector<CatalystScript*> scripts_wanting(long step, double time_s);
   void throw_if_failed() const;
   void close();
@@ -56,7 +57,7 @@ class CatalystPipeline : public Pipeline {
   std::string description_;
   vtkSmartPointer<vtkCPProcessor> processor_;
   std::optional<ScriptGuard> guard_;
-  std::optional<ParticleGrid> grid_;
+  std::optional<PerChannel<BorrowedGrid>> grids_;
   std::vector<std::unique_ptr<CatalystScript>> scripts_;
 };
 

@@ -1,43 +1,45 @@
 /// One Catalyst V2 script: when it wants to run, which fields it needs, running it.
 #pragma once
 
+#include <vtkCPDataDescription.h>
 #include <vtkCPPythonScriptV2Helper.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 
-#include <optional>
 #include <string>
-#include <vector>
+
+#include "insitu/catalyst/channel.hpp"
 
 namespace rhexis::insitu {
 
-/// The names under which scripts find the particles: the channel's, and that of the file which the solver
-/// saves, so that a script exported from a ParaView session on this file runs unchanged.
-inline constexpr const char* channel_names[] = {"particles", "particles.xdmf"};
+/// What a script may be lent at a step; null: the run has none of it.
+using Grids = PerChannel<vtkPolyData*>;
 
 class CatalystScript {
  public:
-  CatalystScript(std::string path, std::optional<std::vector<std::string>> fields);
+  CatalystScript(std::string path, PerChannel<Wish> wishes);
 
   const std::string& path() const { return path_; }
 
-  /// The fields declared by the script; nothing means all.
-  const std::optional<std::vector<std::string>>& fields() const { return fields_; }
+  const PerChannel<Wish>& wishes() const { return wishes_; }
 
   /// Collective, as the script may decide by code of its own. A script not started yet wants any step.
   bool wants(long step, double time_s);
 
   /// Starts the script if this is its first time and lets it make its extracts. Failures are left with the
   /// guard.
-  void run(vtkPolyData* grid, long step, double time_s);
+  void run(const Grids& grids, long step, double time_s);
 
   void finish();
 
  private:
-  bool start(vtkPolyData* grid, long step, double time_s);
+  bool start(const Grids& grids, long step, double time_s);
+  vtkSmartPointer<vtkCPDataDescription> describe(const Grids& grids, long step, double time_s) const;
 
   std::string path_;
-  std::optional<std::vector<std::string>> fields_;
+  PerChannel<Wish> wishes_;
+  PerChannel<bool> lent_{};  ///< what the script knows since its start
   vtkNew<vtkCPPythonScriptV2Helper> helper_;
   bool started_ = false;
 };

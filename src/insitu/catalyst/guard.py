@@ -18,6 +18,9 @@ from paraview.catalyst import importers, v2_internals
 from paraview.modules.vtkPVPythonCatalyst import vtkCPPythonScriptV2Helper
 from paraview.modules.vtkRemotingServerManager import vtkSMProxyManager
 
+CHANNELS = [("particles", "particles.xdmf"), ("network", "network.xdmf")]
+FIELD_LISTS = ["fields", "network_fields"]  # what a script calls the fields that it needs of each channel
+EXAMPLES = {"fields": "damage", "network_fields": "pressure"}
 image_directory = ""  # set by C++
 scripts = {}  # module name -> path
 noted = None  # of this rank: the first exception that ParaView swallowed, with its trace
@@ -106,25 +109,54 @@ def request_data_description(module, description):
     return hasattr(module, "RequestDataDescription") and do_request_data_description(module, description)
 
 
-def inspect(path):
-    """Reads a script without running it: the list `fields` that it declares, or None where it has none."""
-    source = os.path.join(path, "__init__.py") if os.path.isdir(path) else path
+def read_source(source, path):
     try:
         with open(source, encoding="utf-8") as file:
-            tree = ast.parse(file.read(), source)
+            return ast.parse(file.read(), source)
     except OSError as error:
         raise RuntimeError(f"Catalyst script {path}: {error.strerror}") from None
     except (SyntaxError, ValueError) as error:
         raise RuntimeError(describe(error, None, path)) from None
+
+
+def declared_list(tree, name, path):
+    """The list of strings that a script assigns to `name`, None where it does not."""
     for node in tree.body:
-        if isinstance(node, ast.Assign) and any(getattr(target, "id", "") == "fields" for target in node.targets):
+        if isinstance(node, ast.Assign) and any(getattr(target, "id", "") == name for target in node.targets):
             try:
-                return [str(name) for name in ast.literal_eval(node.value)]
+                return [str(item) for item in ast.literal_eval(node.value)]
             except (ValueError, TypeError):
                 raise RuntimeError(
-                    f'Catalyst script {path}, line {node.lineno}: fields must be a list of names, e.g. fields = ["damage"]'
+                    f"Catalyst script {path}, line {node.lineno}: "
+                    f'{name} must be a list of names, e.g. {name} = ["{EXAMPLES[name]}"]'
                 ) from None
     return None
+
+
+def named_channels(tree):
+    """The names by which a script asks for sources: registrationName="...", GetTrivialProducer("...")."""
+    names = set()
+    for call in ast.walk(tree):
+        if isinstance(call, ast.Call):
+            candidates = [word.value for word in call.keywords if word.arg in ("registrationName", "guiName")]
+            if getattr(call.func, "attr", "") == "GetTrivialProducer":
+                candidates += call.args
+            names |= {node.value for node in candidates if isinstance(node, ast.Constant)}
+    return names
+
+
+def inspect(path):
+    """Reads a script without running it: of each channel whether it is wanted, required, and which fields (None: all)."""
+    sources = [path]
+    if os.path.isdir(path):
+        parts = sorted(name for name in os.listdir(path) if name.endswith(".py") and name != "__init__.py")
+        sources = [os.path.join(path, name) for name in ["__init__.py", *parts]]
+    trees = [read_source(source, path) for source in sources]
+    named = set().union(*map(named_channels, trees))
+    declared = [declared_list(trees[0], name, path) for name in FIELD_LISTS]
+    required = [fields is not None or not named.isdisjoint(names) for fields, names in zip(declared, CHANNELS)]
+    anything = not any(required)  # it says nothing that can be read here: it gets whatever there is
+    return [(asked or anything, asked, fields) for asked, fields in zip(required, declared)]
 
 
 def forget_scripts():

@@ -60,15 +60,22 @@ ScriptGuard::ScriptGuard(Agreement& agreement, const std::string& image_director
   PyDict_SetItemString(names, "image_directory", directory);
 }
 
-std::optional<std::vector<std::string>> ScriptGuard::declared_fields(const std::string& script) const {
+PerChannel<Wish> ScriptGuard::wishes(const std::string& script) const {
   vtkPythonScopeGilEnsurer gil;
-  const vtkSmartPyObject names = call("inspect", script.c_str());
-  if (names.GetPointer() == Py_None) return std::nullopt;
-  std::vector<std::string> fields;
-  for (Py_ssize_t i = 0; i < PyList_Size(names); ++i) {
-    fields.emplace_back(PyUnicode_AsUTF8(PyList_GetItem(names, i)));
+  const vtkSmartPyObject found = call("inspect", script.c_str());
+  PerChannel<Wish> wishes;
+  for (std::size_t channel = 0; channel < channel_count; ++channel) {
+    PyObject* of_channel = PyList_GetItem(found, static_cast<Py_ssize_t>(channel));
+    wishes[channel].wanted = PyTuple_GetItem(of_channel, 0) == Py_True;
+    wishes[channel].required = PyTuple_GetItem(of_channel, 1) == Py_True;
+    PyObject* names = PyTuple_GetItem(of_channel, 2);
+    if (names == Py_None) continue;
+    std::vector<std::string>& fields = wishes[channel].fields.emplace();
+    for (Py_ssize_t i = 0; i < PyList_Size(names); ++i) {
+      fields.emplace_back(PyUnicode_AsUTF8(PyList_GetItem(names, i)));
+    }
   }
-  return fields;
+  return wishes;
 }
 
 std::string ScriptGuard::take_noted(const std::string& script) const {

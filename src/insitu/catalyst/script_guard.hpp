@@ -1,11 +1,10 @@
 /// The Python side of the plugin: starts the interpreter and puts guard.py between ParaView and the scripts.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "insitu/catalyst/agreement.hpp"
+#include "insitu/catalyst/channel.hpp"
 
 namespace rhexis::insitu {
 
@@ -14,9 +13,9 @@ class ScriptGuard {
   /// `agreement` must outlive the interpreter's use of it, that is until `forget_scripts`.
   ScriptGuard(Agreement& agreement, const std::string& image_directory);
 
-  /// The fields that a script declares, nothing where it declares none and so wants all. Throws RunError for
-  /// a script that cannot be read or parsed; local to the rank.
-  std::optional<std::vector<std::string>> declared_fields(const std::string& script) const;
+  /// What a script declares that it wants of each channel. Throws RunError for a script that cannot be read
+  /// or parsed; local to the rank.
+  PerChannel<Wish> wishes(const std::string& script) const;
 
   /// The first exception on this rank that ParaView swallowed since the last call, while `script` ran; empty
   /// if none.
