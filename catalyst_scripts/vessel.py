@@ -7,7 +7,8 @@ import os
 
 from paraview.modules.vtkPVPythonCatalyst import vtkCPPythonScriptV2Helper
 
-from vessel_picture import VesselPicture, field_value
+from picture_tools import field_value
+from vessel_picture import VesselPicture
 
 fields = ["displacement", "damage"]  # the program computes and sends no others
 image_directory = ""  # the program puts the run's folder of images here

@@ -9,75 +9,23 @@ on each pixel of each sphere. So each rank leaves out what its other particles h
 """
 
 import math
-import struct
-import zlib
 
 import numpy
-import vtkmodules.vtkRenderingFreeType
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 (it and FreeType: how VTK draws)
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonCore import (
-    VTK_INT,
-    vtkDoubleArray,
-    vtkFloatArray,
-    vtkLookupTable,
-    vtkPoints,
-    vtkUnsignedCharArray,
-)
+from vtkmodules.vtkCommonCore import VTK_INT, vtkDoubleArray, vtkPoints, vtkUnsignedCharArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersSources import vtkLineSource
-from vtkmodules.vtkParallelCore import vtkCommunicator, vtkMultiProcessController
+from vtkmodules.vtkParallelCore import vtkCommunicator
 from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
-from vtkmodules.vtkRenderingCore import (
-    vtkActor,
-    vtkColorTransferFunction,
-    vtkPolyDataMapper,
-    vtkRenderer,
-    vtkRenderWindow,
-    vtkTextActor,
-)
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor
 
-WIDTH, HEIGHT = 1280, 720  # even numbers, as movies need them
+from picture_tools import HEIGHT, VIRIDIS, WIDTH, colours, gather, plain, reduce_over_ranks, round_up, write_png
+
 SPHERE = 1.2  # diameter of a sphere in spacings: neighbours touch, gaps between torn parts stay open
 AZIMUTH, ELEVATION = math.radians(22.5), math.radians(28)  # of the camera, about the vessel's axis z
 SLENDER = 4  # vessels longer than this many diameters lie down, one picture above the other
 DAMAGE_RANGE = 0.5  # a particle on the edge of a crack has lost about half of its bonds
-VIRIDIS = [
-    (0.267, 0.005, 0.329), (0.283, 0.141, 0.458), (0.254, 0.265, 0.530), (0.207, 0.372, 0.553), (0.164, 0.471, 0.558),
-    (0.128, 0.567, 0.551), (0.135, 0.659, 0.518), (0.267, 0.749, 0.441), (0.478, 0.821, 0.318), (0.741, 0.873, 0.150),
-    (0.993, 0.906, 0.144),
-]  # fmt: skip
 GREY_TO_RED = [(0.82, 0.82, 0.82), (0.98, 0.75, 0.55), (0.90, 0.33, 0.22), (0.45, 0.0, 0.05)]
-
-
-def controller_of_ranks():
-    """None where there is one rank only."""
-    controller = vtkMultiProcessController.GetGlobalController()
-    return None if controller is None or controller.GetNumberOfProcesses() == 1 else controller
-
-
-def reduce_over_ranks(values, operation):
-    """Element-wise minimum or maximum over all ranks."""
-    controller = controller_of_ranks()
-    if controller is None:
-        return numpy.array(values, float)
-    send, receive = vtkDoubleArray(), vtkDoubleArray()
-    for value in values:
-        send.InsertNextValue(value)
-    receive.SetNumberOfValues(len(values))
-    controller.AllReduce(send, receive, operation)
-    return vtk_to_numpy(receive).copy()
-
-
-def gather(table):
-    """The rows of all ranks' tables (of floats) on the first rank, None on the others."""
-    controller = controller_of_ranks()
-    if controller is None:
-        return table
-    receive = vtkFloatArray()
-    receive.SetNumberOfComponents(table.shape[1])
-    controller.GatherV(numpy_to_vtk(table), receive, 0)
-    return vtk_to_numpy(receive) if controller.GetLocalProcessId() == 0 else None
 
 
 def column(particles, name):
@@ -103,12 +51,6 @@ def measure(particles):
     high = reduce_over_ranks(high, vtkCommunicator.MAX_OP)
     spacing = reduce_over_ranks([spacing], vtkCommunicator.MIN_OP)[0]
     return low, high, spacing
-
-
-def round_up(value):
-    """The next number of 1, 2, 5 times a power of ten."""
-    power = 10.0 ** math.floor(math.log10(value))
-    return next(step * power for step in (1, 2, 5, 10) if step * power >= value * (1 - 1e-9))
 
 
 def extreme_of_neighbours(grid, reach, extreme):
@@ -340,34 +282,12 @@ class VesselPicture:
         text(view, 18, (0.03, 0.05), f"{1e3 * length:g} mm")
 
 
-def colours(shades, space):
-    """A table of 256 colours between shades of equal distances."""
-    function = vtkColorTransferFunction()
-    function.SetColorSpace({"RGB": 0, "Lab": 2}[space])
-    for number, shade in enumerate(shades):
-        function.AddRGBPoint(number / (len(shades) - 1), *shade)
-    table = vtkLookupTable()
-    table.SetNumberOfTableValues(256)
-    for number in range(256):
-        table.SetTableValue(number, *function.GetColor(number / 255))
-    return table
-
-
 def set_labels(bar, top):
     labels = vtkDoubleArray()
     for fifth in range(6):
         labels.InsertNextValue(top * fifth / 5)
     bar.SetCustomLabels(labels)
     bar.UseCustomLabelsOn()
-
-
-def plain(style, size):
-    style.SetColor(0.0, 0.0, 0.0)
-    style.SetFontFamilyToArial()
-    style.SetFontSize(size)
-    style.BoldOff()
-    style.ItalicOff()
-    style.ShadowOff()
 
 
 def text(view, size, position, line=""):
@@ -382,24 +302,3 @@ def text(view, size, position, line=""):
     actor.SetPosition(*position)
     view.AddActor2D(actor)
     return actor
-
-
-def write_png(path, rows):
-    """Twice as fast as VTK's writer (at its fastest), and what goes wrong is raised."""
-    height, width, _ = rows.shape
-    lines = numpy.empty((height, 1 + 3 * width), numpy.uint8)
-    lines[:, 0] = 2  # the filter "up": each line as the difference from the one above
-    lines[0, 1:] = rows[0].reshape(-1)
-    numpy.subtract(rows[1:], rows[:-1], out=lines[1:, 1:].reshape(height - 1, width, 3))
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)  # 8 bits of red, green and blue
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n")
-        for kind, content in ((b"IHDR", header), (b"IDAT", zlib.compress(lines, 1)), (b"IEND", b"")):
-            file.write(struct.pack(">I", len(content)) + kind + content)
-            file.write(struct.pack(">I", zlib.crc32(content, zlib.crc32(kind))))
-
-
-def field_value(particles, name):
-    """A number that goes with the particles (e.g. "pressure", in Pa), None where there is none of this name."""
-    array = particles.GetFieldData().GetArray(name)
-    return None if array is None else array.GetTuple1(0)

@@ -16,7 +16,8 @@ from paraview.simple import XDMFReader
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "catalyst_scripts"))
 
-from vessel_picture import VesselPicture, field_value
+from picture_tools import field_value
+from vessel_picture import VesselPicture
 
 
 def read_frames(path):

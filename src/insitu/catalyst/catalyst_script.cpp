@@ -12,13 +12,11 @@ namespace {
 
 /// ParaView's producers warn when they get data twice for the same time, as they do at a script's start and
 /// again at its first run. An object whose warnings somebody observes does not print them.
-void silence_producers() {
+void silence_producers_of(const char* name) {
   vtkNew<vtkCallbackCommand> ignore;
-  auto* proxies = vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager();
   vtkNew<vtkCollection> producers;
-  for (const auto& names : channel_names) {
-    for (const char* name : names) proxies->GetProxies("sources", name, producers);
-  }
+  vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager()->GetProxies("sources", name,
+                                                                                   producers);
   for (int i = 0; i < producers->GetNumberOfItems(); ++i) {
     auto* proxy = vtkSMProxy::SafeDownCast(producers->GetItemAsObject(i));
     auto* producer = vtkObject::SafeDownCast(proxy->GetClientSideObject());
@@ -65,7 +63,9 @@ bool CatalystScript::start(const Grids& grids, long step, double time_s) {
   auto description = describe(grids, step, time_s);
   if (!helper_->Import(description) || !helper_->CatalystInitialize(description)) return false;
   started_ = true;
-  silence_producers();
+  for (const auto& names : channel_names) {
+    for (const char* name : names) silence_producers_of(name);
+  }
   return wants(step, time_s);
 }
 
