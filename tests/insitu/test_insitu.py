@@ -1,4 +1,4 @@
-"""Pictures while the program runs, on a synthetic vessel (insitu_driver): pictures, costs and failing scripts.
+"""Pictures while the program runs, on a synthetic vessel and network (insitu_driver): pictures, failing scripts.
 
 Usage: test_insitu.py DRIVER PLUGIN_DIRECTORY SOURCE_DIRECTORY MPIRUN... [-- unittest arguments]
 No display is needed: DISPLAY is removed. Colours are compared in steps of 1/255.
@@ -23,6 +23,7 @@ import synthetic_run
 arguments = sys.argv[1 : sys.argv.index("--")] if "--" in sys.argv else sys.argv[1:]
 DRIVER, PLUGINS, SOURCE, MPIRUN = arguments[0], arguments[1], Path(arguments[2]), arguments[3:]
 VESSEL = SOURCE / "catalyst_scripts" / "vessel.py"
+NETWORK = SOURCE / "catalyst_scripts" / "network.py"
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "DISPLAY"} | {
     "RHEXIS_PLUGIN_DIR": PLUGINS,
     "RHEXIS_SCRIPT_TIMEOUT": "2",
@@ -179,6 +180,118 @@ class Pictures(DriverTest):
         self.assertLess((numpy.abs(read(self.images / "damage_000000.png") - first).max(axis=-1) > 8).mean(), 1e-3)
 
 
+def reddish(picture):
+    return (picture[..., 0] > picture[..., 1] + 70) & (picture[..., 0] > picture[..., 2] + 70)
+
+
+def bluish(picture):
+    return (picture[..., 2] > picture[..., 0] + 50) & (picture[..., 2] > picture[..., 1] + 30)
+
+
+@unittest.skipUnless(BUILT, "built without ParaView")
+class Networks(DriverTest):
+    def picture(self, channels, ranks=1, frames=1):
+        self.run_driver(NETWORK, channels=channels, ranks=ranks, frames=frames)
+        picture = read(self.images / "network_000000.png")
+        self.assertEqual(picture.shape, (720, 1280, 3))
+        edge = numpy.concatenate([picture[[0, -1]].reshape(-1, 3), picture[:, [0, -1]].reshape(-1, 3)])
+        self.assertTrue((edge == 255).all(), "something is clipped")
+        return picture
+
+    def check_tree(self, picture):
+        """Side by side: red left of blue in the left view; both as large as in the right view, of other colours."""
+        left, right = picture[60:600, :640], picture[60:600, 640:]
+        red, blue = numpy.nonzero(reddish(left)), numpy.nonzero(bluish(left))
+        self.assertGreater(min(len(red[0]), len(blue[0])), 3000)
+        self.assertLess(red[1].mean() + 200, blue[1].mean())
+        self.assertEqual(reddish(right).sum(), 0)
+        for half in (left, right):
+            rows, columns = numpy.nonzero(~like(half, 255, 3))
+            self.assertGreater(numpy.ptp(columns), 560)
+            self.assertGreater(numpy.ptp(rows), 250)
+        yellow = (right[..., 0] > 200) & (right[..., 1] > 180) & (right[..., 2] < 110)
+        self.assertGreater(yellow.sum(), 150, "no high pressure")
+        self.assertLess(numpy.nonzero(yellow)[1].mean(), 150, "high pressures are not where blood comes in")
+
+    def test_pictures_are_the_same_on_1_2_and_4_ranks(self):
+        for kind in ("planar", "spatial"):
+            pictures = [self.picture(f"network:{kind}", ranks) for ranks in (1, 2, 4)]
+            self.check_tree(pictures[0])
+            for other in pictures[1:]:
+                # Where vessels meet at the same depth, the first drawn wins.
+                self.assertLess((numpy.abs(other - pictures[0]).max(axis=-1) > 8).mean(), 1e-3)
+
+    def test_ranks_without_vessels(self):
+        alone, shared = self.picture("network:1"), self.picture("network:1", ranks=4)
+        self.assertLess((numpy.abs(shared - alone).max(axis=-1) > 8).mean(), 1e-3)
+
+    def test_flow_is_shown_where_nobody_knows_the_kinds(self):
+        picture = self.picture("network:unknown")
+        self.assertEqual(reddish(picture).sum(), 0)
+        first, inner = picture[335, 40:140], picture[180:500, 290:350]
+        self.assertTrue((first.sum(axis=-1) < 300).all(), "the largest flow is dark")
+        self.assertGreater(((inner[..., 0] > 150) & (inner[..., 1] > 180) & (inner[..., 2] < 100)).sum(), 200)
+
+    def test_thousands_of_vessels_leave_white_between_them(self):
+        picture = self.picture("network:spatial:11", frames=2)
+        body = picture[60:600, :640]
+        covered = (~like(body, 255, 3)).mean()
+        self.assertGreater(covered, 0.08)
+        self.assertLess(covered, 0.5)
+
+    def test_only_fields_asked_for_are_computed(self):
+        report = json.loads(self.run_driver(NETWORK, channels="both")[-1])
+        self.assertEqual(report["asked"], {})
+        self.assertEqual(report["asked_of_network"], dict.fromkeys(["flow", "kind", "pressure", "radius"], 2))
+        report = json.loads(self.run_driver(VESSEL, NETWORK, channels="both")[-1])
+        self.assertEqual(report["asked"], {"damage": 2, "displacement": 2})
+        names = [f"{name}_{step:06d}.png" for name in ("network", "vessel") for step in (0, 50)]
+        self.assertEqual(sorted(path.name for path in self.images.iterdir()), names)
+
+    def test_both_channels_as_paraview_sees_them(self):
+        script = self.script(
+            'network_fields = ["pressure", "flow"]\nfrom paraview.simple import *\n'
+            'network = XDMFReader(registrationName="network.xdmf", FileNames=["/elsewhere/network.xdmf"])\n'
+            'particles = PVTrivialProducer(registrationName="particles")\n'
+            "def catalyst_execute(info):\n"
+            "    network.UpdatePipeline(), particles.UpdatePipeline()\n"
+            "    data = network.GetClientSideObject().GetOutputDataObject(0)\n"
+            "    assert (data.GetNumberOfPoints(), data.GetNumberOfCells(), data.GetNumberOfLines()) == (60, 30, 30)\n"
+            "    assert [data.GetCell(29).GetPointId(end) for end in (0, 1)] == [58, 59]\n"
+            '    assert data.GetPointData().GetArray("pressure").GetTuple1(0) == 13332\n'
+            '    assert abs(data.GetCellData().GetArray("flow").GetTuple1(29) / (5e-3 / 60 / 8) - 1) < 1e-12\n'
+            '    assert data.GetPointData().GetArray("flow") is None\n'
+            '    assert data.GetFieldData().GetArray("vessels").GetTuple1(0) == 34359738366\n'
+            '    assert data.GetFieldData().GetArray("step").GetTuple1(0) == info.timestep\n'
+            '    assert particles.PointData["damage"].GetRange()[1] <= 0.5\n'
+        )
+        report = json.loads(self.run_driver(script, channels="both")[-1])
+        self.assertEqual(report["asked_of_network"], {"flow": 2, "pressure": 2})
+        self.assertEqual(len(report["asked"]), 5)  # the script says nothing of the particles' fields
+
+    def test_missing_channel(self):
+        for script, channels, missing in ((NETWORK, "particles", "network"), (VESSEL, "network", "particles")):
+            for ranks in (1, 2):
+                self.assertIn(
+                    f"Catalyst script {script} asks for the channel '{missing}', which this run does not have; "
+                    f"there are: {channels}",
+                    self.failure(script, channels=channels, ranks=ranks),
+                )
+
+    def test_unknown_field_and_bad_list(self):
+        script = self.script('network_fields = ["presure"]\n')
+        self.assertIn(f"{script} asks for the field 'presure'; there are: pressure, flow, ",
+                      self.failure(script, channels="network"))
+        script = self.script("network_fields = 5\n")
+        self.assertIn('line 1: network_fields must be a list of names, e.g. network_fields = ["pressure"]',
+                      self.failure(script, channels="network"))
+
+    def test_picture_that_cannot_be_written(self):
+        (self.images / "network_000050.png").mkdir(parents=True)
+        self.assertRegex(self.failure(NETWORK, ranks=2, channels="network"),
+                         r"network.py, line \d+: IsADirectoryError: .*network_000050.png")
+
+
 class Absent(DriverTest):
     def test_without_plugin_the_reason_is_given(self):
         with unittest.mock.patch.dict(ENVIRONMENT, RHEXIS_PLUGIN_DIR="/nowhere"):
@@ -244,7 +357,19 @@ class Failures(DriverTest):
 
 
 @unittest.skipUnless(BUILT, "built without ParaView")
-class Afterwards(unittest.TestCase):
+class Afterwards(DriverTest):
+    def test_a_saved_network_gives_the_picture_of_the_run(self):
+        scripts = SOURCE / "postprocessing"
+        subprocess.run([Path(DRIVER).with_name("write_network"), self.folder, "network:spatial"], check=True)
+        self.run_driver(NETWORK, channels="network:spatial")
+        during = read(self.images / "network_000050.png")
+        result = subprocess.run(
+            [scripts / "pvpython_headless", scripts / "render_network.py", self.folder / "network.xdmf", "-o",
+             self.folder / "after"], env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
+        self.assertEqual((result.returncode, complaints(result.stderr)), (0, ""), result.stdout)
+        after = read(self.folder / "after" / "network_000050.png")
+        self.assertLess((numpy.abs(after - during).max(axis=-1) > 8).mean(), 1e-3)
+
     def test_saved_particles_give_pictures_a_movie_and_curves(self):
         scripts = SOURCE / "postprocessing"
         with tempfile.TemporaryDirectory() as name:

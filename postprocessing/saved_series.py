@@ -1,0 +1,49 @@
+"""What the scripts have in common that draw saved series: arguments, moments in time, the loop over them."""
+
+import argparse
+import re
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+from paraview.simple import XDMFReader
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "catalyst_scripts"))
+
+
+def read_frames(path):
+    """(time in s, step) of each moment in the file; the step is in the names of the data sets."""
+    frames = []
+    for grid in ElementTree.parse(path).getroot().iter("Grid"):
+        time = grid.find("Time")
+        if time is None:
+            continue
+        data_sets = " ".join(item.text for item in grid.iter("DataItem") if item.text)
+        step = re.search(r":/\w+/(\d+)", data_sets)
+        frames.append((float(time.get("Value")), int(step.group(1)) if step else len(frames)))
+    return frames
+
+
+def draw_series(description, kind, image_name, point_fields, cell_fields, draw):
+    """Calls draw(image path, data, step, time in s) for each moment of the file named on the command line."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument(kind, type=Path, help=f"{kind}.xdmf of a run")
+    parser.add_argument("-o", "--output", type=Path, help="folder of the images")
+    parser.add_argument("--every", type=int, default=1, metavar="N", help="only every Nth moment")
+    arguments = parser.parse_args()
+    path = getattr(arguments, kind)
+    if not path.exists():
+        sys.exit(f"error: no file {path}")
+    output = arguments.output or path.parent / "images"
+    output.mkdir(parents=True, exist_ok=True)
+
+    frames = read_frames(path)
+    if not frames:
+        sys.exit(f"error: {path} holds no moment in time")
+    reader = XDMFReader(FileNames=[str(path)])
+    reader.PointArrayStatus, reader.CellArrayStatus = point_fields, cell_fields
+    for time_s, step in frames[:: arguments.every]:
+        reader.UpdatePipeline(time_s)
+        image = output / f"{image_name}_{step:06d}.png"
+        draw(image, reader.GetClientSideObject().GetOutputDataObject(0), step, time_s)
+        print(image)
