@@ -26,7 +26,7 @@ MOST_COVERED = 0.6  # share of a view that all vessels together may cover for th
 KINDS = [("arteries", (0.80, 0.11, 0.13)), ("veins", (0.13, 0.33, 0.75)), ("unknown", (0.55, 0.55, 0.55))]
 UNKNOWN = 2
 MMHG = 133.322387415  # Pa
-FLOW_UNITS = [(1e-3 / 60, "L/min"), (1e-6 / 60, "mL/min"), (1e-9 / 60, "uL/min"), (1e-12 / 60, "nL/min")]
+FLOW_UNITS = [(1e-3 / 60, "L/min"), (1e-6 / 60, "mL/min"), (1e-9 / 60, "\u00b5L/min"), (1e-12 / 60, "nL/min")]
 
 # Layouts, in pixels: views and the places of their legends (left, bottom, width, height of the view; left, y, width).
 SIDE_BY_SIDE = [((0, 100, 640, 570), (150, 56, 340)), ((640, 100, 640, 570), (790, 56, 340))]
@@ -163,21 +163,26 @@ class NetworkPicture:
         low, high = self.pressure_range  # grows only, so that frames can be compared
         low, high = min(low, known.min(initial=math.inf)), max(high, known.max(initial=-math.inf))
         self.pressure_range = low, high
-        ticks = even_ticks(low, high) if low <= high else [0.0, 1.0]
         table = colours(VIRIDIS, "RGB")
-        table.SetRange(ticks[0], ticks[-1])
         table.SetNanColor(*KINDS[UNKNOWN][1], 1.0)
+        if low > high:  # no pressure is known
+            self._show(1, mesh.surface(numpy.full(mesh.vessel.shape, math.nan, numpy.float32)), table)
+            self.sheet.key(left + 0.5 * width, y, [("pressure unknown", KINDS[UNKNOWN][1])])
+            return
+        ticks = even_ticks(low, high, about=width // 65)
+        table.SetRange(ticks[0], ticks[-1])
         self._show(1, mesh.surface(pressure[mesh.vessel, mesh.at_end].astype(numpy.float32)), table)
         places = [((tick - ticks[0]) / (ticks[-1] - ticks[0]), f"{tick:g}") for tick in ticks]
         self.sheet.colour_bar(left, y, width, table, "pressure / mmHg", places)
 
     def _write_title(self, network, drawn, time_s):
         shown, vessels = field_value(network, "shown") or drawn, field_value(network, "vessels")
-        title = f"{int(shown):,} vessels" if vessels in (None, shown) else f"{int(shown):,} of {int(vessels):,} vessels"
+        number = f"{int(shown):,}" if vessels in (None, shown) else f"{int(shown):,} of {int(vessels):,}"
+        title = f"{number} vessel" if number == "1" else f"{number} vessels"
         inflow = field_value(network, "inflow")
         if inflow is not None:
             unit, name = flow_unit(abs(inflow))
-            title += f"      inflow {inflow / unit:.3g} {name}"
+            title += f"      inflow {float(f'{inflow / unit:.3g}'):g} {name}"
         if time_s > 0:
             title += f"      t = {time_s:.4g} s" if time_s >= 1 else f"      t = {1e3 * time_s:.4g} ms"
         self.sheet.text(0.5 * WIDTH, HEIGHT - 32, title, LARGE, align="centre")

@@ -10,7 +10,13 @@ from vtkmodules.vtkCommonCore import VTK_INT, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
 # From this radius in pixels on: columns around, degrees from the first to the last, circles of a cap.
-CLASSES = [(0.0, 3, 180, []), (1.6, 5, 180, [45]), (4.0, 13, 360, [35, 70, 90]), (12.0, 25, 360, [22, 45, 68, 90])]
+CLASSES = [
+    (0.0, 3, 180, []),
+    (1.6, 5, 180, [45]),
+    (4.0, 13, 360, [35, 70, 90]),
+    (12.0, 25, 360, [22, 45, 68, 90]),
+    (36.0, 61, 360, [10, 20, 30, 40, 50, 60, 70, 80, 90]),
+]
 
 
 def directions(axis):

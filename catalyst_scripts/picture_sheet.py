@@ -12,7 +12,7 @@ from picture_tools import plain, round_up
 
 INK = (0.13, 0.13, 0.13)
 SMALL, LARGE = 16, 20  # heights of letters
-LENGTH_UNITS = [(1.0, "m"), (1e-2, "cm"), (1e-3, "mm"), (1e-6, "um")]
+LENGTH_UNITS = [(1.0, "m"), (1e-2, "cm"), (1e-3, "mm"), (1e-6, "\u00b5m")]
 
 
 class Sheet:
@@ -89,12 +89,12 @@ class Sheet:
         self.text(left, y + 9, f"{length_m / unit_m:g} {unit}")
 
 
-def even_ticks(low, high):
-    """Four to seven round numbers that take in both ends."""
+def even_ticks(low, high, about):
+    """Round numbers that take in both ends, with about as many steps between them."""
     if not high - low > 1e-6 * max(abs(low), abs(high), 1e-9):
         margin = max(1.0, 0.05 * abs(low))
         low, high = low - margin, high + margin
-    rough = (high - low) / 6
+    rough = (high - low) / about
     power = 10.0 ** math.floor(math.log10(rough))
     step = next(factor * power for factor in (1, 2, 2.5, 5, 10) if factor * power >= rough * (1 - 1e-9))
     first, last = math.floor(low / step + 1e-6), math.ceil(high / step - 1e-6)
