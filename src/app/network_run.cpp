@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "output/atomic_file.hpp"
 #include "output/directory.hpp"
+#include "output/line_series.hpp"
 #include "output/together.hpp"
 
 namespace rhexis::app {
@@ -95,9 +96,29 @@ void NetworkRun::write_tables() {
   });
 }
 
-void NetworkRun::write_lines() {}
+void NetworkRun::write_lines() {
+  if (comm_.all_reduce(static_cast<std::int64_t>(solution_.lines.count()), parallel::Reduce::sum) == 0)
+    return;
+  solution_.lines.annotate({{"vessels", "1", static_cast<double>(solution_.vessels)},
+                            {"shown", "1", static_cast<double>(solution_.shown)},
+                            {"inflow", "m3/s", solution_.inflow}});
+  const auto fields = solution_.lines.fields();
+  output::LineSeriesPlan plan;
+  plan.directory = options_.directory;
+  plan.title = c_.title;
+  plan.version = version();
+  plan.fields.assign(fields.begin(), fields.end());
+  plan.steps = {0};
+  plan.precision = output::Precision::double_precision;
+  output::LineSeries(plan, solution_.lines, comm_).write(solution_.lines);
+}
 
-void NetworkRun::draw() {}
+void NetworkRun::draw() {
+  if (!pipeline_) return;
+  const Stopwatch watch(spent_.insitu);
+  pipeline_->process({.particles = nullptr, .network = &solution_.lines});
+  pipeline_->finish();
+}
 
 output::Performance NetworkRun::performance() const {
   output::Performance p;
