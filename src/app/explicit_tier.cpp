@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/graph_flow.hpp"
+#include "hemodynamics/haematocrit.hpp"
 #include "output/together.hpp"
 
 namespace rhexis::app {
@@ -73,11 +74,25 @@ class ExplicitTier : public NetworkTier {
     show(flow, s);
   }
 
-  hemodynamics::GraphFlow find_flow(NetworkSolution&) {
-    const hemodynamics::GraphSolverOptions options = solver_options(c_);
-    return hemodynamics::solve_flow(network_.graph,
-                                    conductances(network_.graph, mechanics_.viscosity, haematocrit_),
-                                    network_.conditions, options);
+  hemodynamics::GraphFlow find_flow(NetworkSolution& s) {
+    const auto flow_of = [&](std::span<const double> haematocrit) {
+      return hemodynamics::solve_flow(network_.graph,
+                                      conductances(network_.graph, mechanics_.viscosity, haematocrit),
+                                      network_.conditions, solver_options(c_));
+    };
+    const hemodynamics::Parameters& h = c_.hemodynamics;
+    if (!h.phase_separation) return flow_of({});
+    hemodynamics::HaematocritFlow found = hemodynamics::find_haematocrit(
+        network_.graph, flow_of, {h.viscosity.haematocrit, h.phase_tolerance, h.phase_iterations});
+    if (!found.converged) {
+      s.warnings.push_back(
+          fmt::format("haematocrits have not converged in {} iterations: they still change by {:.1e} "
+                      "(blood.phase_tolerance {:.1e})",
+                      found.iterations, found.change, h.phase_tolerance));
+    }
+    s.haematocrit_iterations = found.iterations;
+    haematocrit_ = std::move(found.haematocrit);
+    return std::move(found.flow);
   }
 
   void measure(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {

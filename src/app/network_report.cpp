@@ -96,6 +96,9 @@ void NetworkRun::say_summary() {
   }
   console_.item("solver",
                 s.iterations ? fmt::format("{}, {} iterations", s.solver, *s.iterations) : s.solver);
+  if (s.haematocrit_iterations) {
+    console_.item("haematocrit", fmt::format("fixed point after {} iterations", *s.haematocrit_iterations));
+  }
   for (const QueriedVessel& q : s.queries) {
     console_.item("vessel",
                   fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name, kind_text(q.kind),

@@ -43,7 +43,7 @@ struct NetworkSolution {
   std::optional<double> volume, surface;             ///< m3, m2
   double highest_pressure = 0, lowest_pressure = 0;  ///< Pa, of all junctions
   std::string solver;
-  std::optional<std::int64_t> iterations;
+  std::optional<std::int64_t> iterations, haematocrit_iterations;
   std::optional<hemodynamics::TreeStatistics> statistics;
   std::vector<QueriedVessel> queries;
   std::vector<VesselRow> table;
