@@ -22,8 +22,8 @@ using Word = hn::VFromD<Words>;
 
 inline constexpr std::size_t width = hn::MaxLanes(Reals());
 
-/// The four words of Philox 4x32-10 for a counter in each lane, as 64-bit numbers: the same as
-/// r123::Philox4x32.
+/// The four words of Philox 4x32-7 for a counter in each lane, as 64-bit numbers: the same as
+/// network::draw's.
 struct FourWords {
   Word word[4];
 };
@@ -36,7 +36,7 @@ HWY_INLINE FourWords philox(Word counter, network::Stream stream, std::uint64_t 
   auto c2 = hn::Set(d, static_cast<std::uint64_t>(stream)), c3 = hn::Zero(d);
   const auto k0 = static_cast<std::uint32_t>(seed), k1 = static_cast<std::uint32_t>(seed >> 32);
   const hn::Repartition<std::uint32_t, Words> d32;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < network::rounds; ++round) {
     const auto p0 = hn::MulEven(hn::BitCast(d32, c0), hn::BitCast(d32, m0));
     const auto p1 = hn::MulEven(hn::BitCast(d32, c2), hn::BitCast(d32, m1));
     const std::uint64_t r = static_cast<std::uint64_t>(round);
