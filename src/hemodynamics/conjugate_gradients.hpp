@@ -23,9 +23,9 @@ class ConjugateGradients {
  public:
   ConjugateGradients(const CoreSystem& system, Preconditioner& preconditioner, int threads);
 
-  /// From zero; `residual` becomes that of `solution`, which is [junctions], zero at fixed ones. Returns the
-  /// number of iterations. It may end early where rounding has taken all that a search direction held: the
-  /// caller judges by the residual of the pressures themselves.
+  /// From zero; `residual` becomes that of `solution`; both are [junctions]. Returns the number of
+  /// iterations. It may end early where rounding has taken all that a search direction held: the caller
+  /// judges by the residual of the pressures themselves.
   std::int64_t solve(std::span<double> residual, std::span<double> solution, const StopRule& stop);
 
  private:

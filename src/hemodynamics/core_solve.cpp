@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/conjugate_gradients.hpp"
-#include "hemodynamics/vector_operations.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::hemodynamics {
@@ -36,17 +35,29 @@ constexpr int idle_rounds = 6;
 
 }  // namespace
 
-std::int64_t solve_core(CoreSystem& system, GraphSolver solver, const GraphSolverOptions& options) {
+GraphSolver choose_solver(const GraphSolverOptions& options, std::size_t unknowns) {
+  if (unknowns == 0) return GraphSolver::elimination;
+  if (options.solver == GraphSolver::elimination) {
+    throw InputError(
+        "solver 'elimination' leaves " + std::to_string(unknowns) +
+        " junctions of this network, which is neither a tree nor made of series and parallel vessels "
+        "only: use 'auto'");
+  }
+  if (options.solver != GraphSolver::automatic) return options.solver;
+  return unknowns <= largest_for_ldlt ? GraphSolver::ldlt : GraphSolver::approximate_cholesky;
+}
+
+std::int64_t solve_core(CoreSystem& system, Preconditioner& preconditioner, GraphSolver solver,
+                        const GraphSolverOptions& options) {
   const int threads = system.unknowns() < serial_unknowns ? 1 : parallel::thread_count();
-  const auto preconditioner = make_preconditioner(system, solver);
-  ConjugateGradients gradients(system, *preconditioner, threads);
-  std::vector<double> residual(system.unknowns()), correction(system.junctions());
+  ConjugateGradients gradients(system, preconditioner, threads);
+  std::vector<double> residual(system.junctions()), correction(system.junctions());
   std::int64_t iterations = 0;
   double best = INFINITY;
   for (int idle = 0;;) {
     std::fill(correction.begin(), correction.end(), 0.0);
     system.imbalance(residual, threads);
-    const double worst = largest(residual), inflow = system.inflow(correction);
+    const double worst = system.largest(residual), inflow = system.inflow(correction);
     const double resolution = system.resolution();
     if (worst <= std::max(options.imbalance * inflow, resolution)) return iterations;
     idle = worst < 0.5 * best ? 0 : idle + 1;
@@ -59,7 +70,7 @@ std::int64_t solve_core(CoreSystem& system, GraphSolver solver, const GraphSolve
                         .least = std::max(resolution, reduction_per_round * worst),
                         .max_iterations = options.max_iterations - iterations};
     iterations += gradients.solve(residual, correction, stop);
-    system.add(std::span<const double>(correction).first(system.unknowns()));
+    system.add(correction);
   }
 }
 

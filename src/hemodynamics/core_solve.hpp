@@ -7,14 +7,20 @@
 
 #include "hemodynamics/core_system.hpp"
 #include "hemodynamics/graph_flow.hpp"
+#include "hemodynamics/preconditioner.hpp"
 
 namespace rhexis::hemodynamics {
 
 /// Unknowns up to which a complete factor is cheaper than an approximate one.
 inline constexpr std::size_t largest_for_ldlt = 1000;
 
-/// Solves for the pressures of `system` by `solver` (one of the four of preconditioner.hpp); returns
-/// iterations. Throws RunError, saying what was reached, where the imbalance asked for is not.
-std::int64_t solve_core(CoreSystem& system, GraphSolver solver, const GraphSolverOptions& options);
+/// Solves for the pressures of `system` with conjugate gradients preconditioned by `preconditioner`; returns
+/// iterations. Throws RunError, saying what was reached, where the imbalance asked for is not. Collective
+/// where the system is shared.
+std::int64_t solve_core(CoreSystem& system, Preconditioner& preconditioner, GraphSolver solver,
+                        const GraphSolverOptions& options);
+
+/// The solver that is used for a core of so many unknowns. Throws InputError where it can be none.
+GraphSolver choose_solver(const GraphSolverOptions& options, std::size_t unknowns);
 
 }  // namespace rhexis::hemodynamics

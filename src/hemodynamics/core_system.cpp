@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "hemodynamics/vector_operations.hpp"
 #include "parallel/threads.hpp"
 
 namespace rhexis::hemodynamics {
@@ -11,11 +12,12 @@ namespace rhexis::hemodynamics {
 CoreSystem::CoreSystem(std::size_t unknowns, std::vector<CoreVessel> vessels, std::vector<double> injection,
                        std::span<const double> fixed, double inflow_by_conditions)
     : unknowns_(unknowns),
+      owned_(unknowns),
       vessels_(std::move(vessels)),
       injection_(std::move(injection)),
       pressure_(unknowns + fixed.size()),
       first_(unknowns + 1),
-      out_of_fixed_(fixed.size()),
+      outflow_(unknowns + fixed.size()),
       inflow_by_conditions_(inflow_by_conditions) {
   for (std::size_t f = 0; f < fixed.size(); ++f) pressure_[unknowns + f].high = fixed[f];
   for (std::uint32_t v = 0; v < vessels_.size(); ++v) {
@@ -44,7 +46,17 @@ double CoreSystem::weight_sum(std::size_t j) const {
   return std::accumulate(row.begin(), row.end(), 0.0);
 }
 
-void CoreSystem::apply(std::span<const double> x, std::span<double> result, int threads) const {
+void CoreSystem::share(std::size_t owned, parallel::SharedValues& shared) {
+  owned_ = owned;
+  shared_ = &shared;
+}
+
+void CoreSystem::start_at(double pressure) {
+  std::fill_n(pressure_.begin(), unknowns_, TwoDoubles{pressure, 0});
+}
+
+void CoreSystem::apply(std::span<double> x, std::span<double> result, int threads) const {
+  if (shared_ != nullptr) shared_->copy_from_owner(x);
   parallel::for_each_share(threads, unknowns_, [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
       double sum = 0;
@@ -52,6 +64,7 @@ void CoreSystem::apply(std::span<const double> x, std::span<double> result, int 
       result[j] = sum;
     }
   });
+  if (shared_ != nullptr) shared_->add_to_owner(result);
 }
 
 void CoreSystem::imbalance(std::span<double> result, int threads) const {
@@ -65,9 +78,11 @@ void CoreSystem::imbalance(std::span<double> result, int threads) const {
       result[j] = sum;
     }
   });
+  if (shared_ != nullptr) shared_->add_to_owner(result);
 }
 
-void CoreSystem::add(std::span<const double> x) {
+void CoreSystem::add(std::span<double> x) {
+  if (shared_ != nullptr) shared_->copy_from_owner(x);
   for (std::size_t j = 0; j < unknowns_; ++j) {
     auto& [high, low] = pressure_[j];
     const double sum = high + x[j], part = sum - high;
@@ -82,27 +97,47 @@ double CoreSystem::flow_along(const CoreVessel& vessel) const {
   return vessel.conductance * ((tail.high - head.high) + (tail.low - head.low));
 }
 
+double CoreSystem::dot(std::span<const double> a, std::span<const double> b, int threads) const {
+  const double sum = hemodynamics::dot(a.first(owned_), b.first(owned_), threads);
+  return shared_ == nullptr ? sum : shared_->communicator().all_reduce(sum, parallel::Reduce::sum);
+}
+
+double CoreSystem::largest(std::span<const double> a) const {
+  const double mine = hemodynamics::largest(a.first(owned_));
+  if (shared_ == nullptr) return mine;
+  // The largest of MPI may pass over nan, a sum does not.
+  const double poison = shared_->communicator().all_reduce(0 * mine, parallel::Reduce::sum);
+  return shared_->communicator().all_reduce(mine, parallel::Reduce::max) + poison;
+}
+
 double CoreSystem::inflow(std::span<const double> x) const {
-  std::transform(injection_.begin() + static_cast<std::ptrdiff_t>(unknowns_), injection_.end(),
-                 out_of_fixed_.begin(), [](double injection) { return -injection; });
+  std::fill(outflow_.begin(), outflow_.end(), 0.0);
+  for (std::size_t j = unknowns_; j < junctions(); ++j) outflow_[j] = -injection_[j];
   for (const std::uint32_t v : at_fixed_) {
     const auto& [tail, head, conductance] = vessels_[v];
     const double flow = flow_along(vessels_[v]) + conductance * (x[tail] - x[head]);
-    if (tail >= unknowns_) out_of_fixed_[tail - unknowns_] += flow;
-    if (head >= unknowns_) out_of_fixed_[head - unknowns_] -= flow;
+    outflow_[tail] += flow;
+    outflow_[head] -= flow;
+  }
+  if (shared_ != nullptr) {
+    shared_->add_to_owner(outflow_);
+    for (const auto& link : shared_->links()) {
+      for (const std::uint32_t j : link.borrowed) outflow_[j] = 0;
+    }
   }
   double sum = inflow_by_conditions_;
-  for (const double out : out_of_fixed_) sum += std::max(out, 0.0);
-  return sum;
+  for (std::size_t j = unknowns_; j < junctions(); ++j) sum += std::max(outflow_[j], 0.0);
+  return shared_ == nullptr ? sum : shared_->communicator().all_reduce(sum, parallel::Reduce::sum);
 }
 
 double CoreSystem::resolution() const {
-  double largest = 0;
+  double most = 0;
   for (const auto& [tail, head, conductance] : vessels_) {
-    largest = std::max(
-        largest, conductance * std::max(std::abs(pressure_[tail].high), std::abs(pressure_[head].high)));
+    const double pressure = std::max(std::abs(pressure_[tail].high), std::abs(pressure_[head].high));
+    most = std::max(most, conductance * pressure);
   }
-  return 0x1p-98 * largest;
+  if (shared_ != nullptr) most = shared_->communicator().all_reduce(most, parallel::Reduce::max);
+  return 0x1p-98 * most;
 }
 
 std::size_t CoreSystem::spread_fixed_pressures() {

@@ -53,18 +53,6 @@ double sum_of_inflows(const Boundary& boundary) {
   return sum;
 }
 
-GraphSolver choose(const GraphSolverOptions& options, std::size_t unknowns) {
-  if (unknowns == 0) return GraphSolver::elimination;
-  if (options.solver == GraphSolver::elimination) {
-    throw InputError(
-        "solver 'elimination' leaves " + std::to_string(unknowns) +
-        " junctions of this network, which is neither a tree nor made of series and parallel vessels "
-        "only: use 'auto'");
-  }
-  if (options.solver != GraphSolver::automatic) return options.solver;
-  return unknowns <= largest_for_ldlt ? GraphSolver::ldlt : GraphSolver::approximate_cholesky;
-}
-
 /// What reduction has left, numbered anew: unknown junctions first, then those of fixed pressure.
 struct Core {
   std::vector<std::uint32_t> vessel, junction;  // numbers before
@@ -115,9 +103,12 @@ GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> cond
         core_of(reduction, junctions, fixed, sum_of_inflows(boundary));
     const std::size_t floating = system.spread_fixed_pressures();
     if (floating < unknowns) throw_floating(graph, junction[floating]);
-    result.solver = choose(options, unknowns);
+    result.solver = choose_solver(options, unknowns);
     result.core_junctions = static_cast<std::int64_t>(unknowns);
-    if (unknowns > 0) result.iterations = solve_core(system, result.solver, options);
+    if (unknowns > 0) {
+      const auto preconditioner = make_preconditioner(system, result.solver);
+      result.iterations = solve_core(system, *preconditioner, result.solver, options);
+    }
     resolution = system.resolution();
     for (std::size_t n = 0; n < junction.size(); ++n) reduction.set_pressure(junction[n], system.pressure(n));
     for (std::size_t n = 0; n < vessel.size(); ++n) reduction.set_flow(vessel[n], system.flow(n));
