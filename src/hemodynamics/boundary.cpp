@@ -37,12 +37,9 @@ void check_vessels(const network::Graph& graph, std::span<const double> conducta
   }
 }
 
-Boundary sort_conditions(const network::Graph& graph, std::span<const network::Condition> conditions) {
+Boundary sort_conditions(const network::Graph& graph, std::span<const network::Condition> conditions,
+                         const NameOfJunction& name_of) {
   Boundary boundary;
-  boundary.has_vessels.resize(graph.junctions);
-  for (const auto* ends : {&graph.from, &graph.to}) {
-    for (const std::uint32_t j : *ends) boundary.has_vessels[j] = true;
-  }
   std::vector<bool> conditioned(graph.junctions);
   for (const network::Condition& condition : conditions) {
     const std::uint32_t j = condition.junction;
@@ -50,7 +47,7 @@ Boundary sort_conditions(const network::Graph& graph, std::span<const network::C
       throw InputError("a condition is set at junction " + std::to_string(j) +
                        ", which does not exist: there are " + std::to_string(graph.junctions));
     }
-    const std::string name = "junction " + graph.name_of_junction(j);
+    const std::string name = "junction " + name_of(j);
     if (conditioned[j]) throw InputError(name + " has two conditions; give one");
     conditioned[j] = true;
     if (!std::isfinite(condition.value))
@@ -58,7 +55,6 @@ Boundary sort_conditions(const network::Graph& graph, std::span<const network::C
     if (condition.kind == network::Condition::Kind::flow) {
       if (condition.resistance != 0)
         throw InputError(name + " has a flow with a resistance; only a pressure may have one");
-      if (!boundary.has_vessels[j]) throw InputError(name + " has an inflow but no vessels");
       boundary.inflows.push_back({j, condition.value});
     } else if (condition.resistance == 0) {
       boundary.fixed.push_back({j, condition.value});
@@ -74,7 +70,15 @@ Boundary sort_conditions(const network::Graph& graph, std::span<const network::C
   return boundary;
 }
 
-void throw_floating(const network::Graph& graph, std::uint32_t junction) {
+std::vector<bool> junctions_with_vessels(const network::Graph& graph) {
+  std::vector<bool> connected(graph.junctions);
+  for (const auto* ends : {&graph.from, &graph.to}) {
+    for (const std::uint32_t j : *ends) connected[j] = true;
+  }
+  return connected;
+}
+
+std::string name_of_first(const network::Graph& graph, std::uint32_t junction) {
   std::vector<std::uint32_t> parent(graph.junctions);
   for (std::uint32_t j = 0; j < parent.size(); ++j) parent[j] = j;
   const auto root = [&](std::uint32_t j) {
@@ -86,9 +90,16 @@ void throw_floating(const network::Graph& graph, std::uint32_t junction) {
     const auto [low, high] = std::minmax({root(graph.from[v]), root(graph.to[v])});
     parent[high] = low;
   }
-  throw InputError("nothing sets the pressure in the part of the network that junction " +
-                   graph.name_of_junction(root(junction)) +
+  return graph.name_of_junction(root(junction));
+}
+
+void throw_floating(const std::string& junction) {
+  throw InputError("nothing sets the pressure in the part of the network that junction " + junction +
                    " belongs to: give one of its junctions a condition of pressure");
+}
+
+void throw_inflow_without_vessels(const std::string& junction) {
+  throw InputError("junction " + junction + " has an inflow but no vessels");
 }
 
 }  // namespace rhexis::hemodynamics

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,14 +33,23 @@ struct Boundary {
   std::vector<Fixed> fixed;
   std::vector<Ghost> ghosts;
   std::vector<Inflow> inflows;
-  std::vector<bool> has_vessels;  ///< [J]
 };
 
-/// Throws InputError, naming the junction, where conditions contradict each other or mean nothing.
-Boundary sort_conditions(const network::Graph& graph, std::span<const network::Condition> conditions);
+using NameOfJunction = std::function<std::string(std::size_t)>;
 
-/// Throws InputError for the component of `junction`, which has no condition of pressure, naming the first of
-/// its junctions.
-[[noreturn]] void throw_floating(const network::Graph& graph, std::uint32_t junction);
+/// Throws InputError, naming the junction, where conditions contradict each other or mean nothing.
+Boundary sort_conditions(const network::Graph& graph, std::span<const network::Condition> conditions,
+                         const NameOfJunction& name);
+
+/// [J]
+std::vector<bool> junctions_with_vessels(const network::Graph& graph);
+
+/// The first junction of the component of `junction`, by name.
+std::string name_of_first(const network::Graph& graph, std::uint32_t junction);
+
+/// Throw InputError: a part of the network without any condition of pressure, `junction` is in it; an inflow
+/// that cannot go anywhere.
+[[noreturn]] void throw_floating(const std::string& junction);
+[[noreturn]] void throw_inflow_without_vessels(const std::string& junction);
 
 }  // namespace rhexis::hemodynamics

@@ -8,50 +8,12 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/large_array.hpp"
-#include "hemodynamics/boundary.hpp"
 #include "hemodynamics/core_solve.hpp"
+#include "hemodynamics/reducible.hpp"
 #include "hemodynamics/reduction.hpp"
 
 namespace rhexis::hemodynamics {
 namespace {
-
-/// The graph with its ghosts, ready for reduction.
-Reduction reducible(const network::Graph& graph, std::vector<double> conductance, const Boundary& boundary) {
-  const std::size_t junctions = graph.junctions + boundary.ghosts.size();
-  const std::size_t vessels = graph.vessels() + boundary.ghosts.size();
-  std::vector<std::uint32_t> tail, head;
-  reserve_large(tail, vessels);
-  reserve_large(head, vessels);
-  conductance.reserve(vessels);
-  tail.assign(graph.from.begin(), graph.from.end());
-  head.assign(graph.to.begin(), graph.to.end());
-  auto injection = large_array<double>(junctions);
-  std::vector<bool> kept(junctions);
-  for (std::size_t n = 0; n < boundary.ghosts.size(); ++n) {
-    tail.push_back(boundary.ghosts[n].junction);
-    head.push_back(static_cast<std::uint32_t>(graph.junctions + n));
-    conductance.push_back(boundary.ghosts[n].conductance);
-    kept[graph.junctions + n] = true;
-  }
-  for (const auto& fixed : boundary.fixed) kept[fixed.junction] = true;
-  for (const auto& inflow : boundary.inflows) injection[inflow.junction] = inflow.flow;
-  return {std::move(tail), std::move(head), std::move(conductance), std::move(injection), std::move(kept)};
-}
-
-std::vector<Boundary::Fixed> all_fixed(const network::Graph& graph, const Boundary& boundary) {
-  std::vector<Boundary::Fixed> fixed = boundary.fixed;
-  for (std::size_t n = 0; n < boundary.ghosts.size(); ++n) {
-    fixed.push_back({static_cast<std::uint32_t>(graph.junctions + n), boundary.ghosts[n].pressure});
-  }
-  return fixed;
-}
-
-double sum_of_inflows(const Boundary& boundary) {
-  double sum = 0;
-  for (const auto& inflow : boundary.inflows) sum += std::max(inflow.flow, 0.0);
-  return sum;
-}
 
 /// What reduction has left, numbered anew: unknown junctions first, then those of fixed pressure.
 struct Core {
@@ -92,9 +54,10 @@ Core core_of(const Reduction& reduction, std::size_t junctions, const std::vecto
 /// Pressures and flows, ghosts included; solver, iterations, size of the core.
 GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> conductance,
                            const Boundary& boundary, const GraphSolverOptions& options, double& resolution) {
-  Reduction reduction = reducible(graph, std::move(conductance), boundary);
+  Reduction reduction = reducible(graph, std::move(conductance), boundary, {});
   reduction.reduce();
-  if (reduction.floating_junction() != Reduction::none) throw_floating(graph, reduction.floating_junction());
+  if (reduction.floating_junction() != Reduction::none)
+    throw_floating(name_of_first(graph, reduction.floating_junction()));
   GraphFlow result;
   {
     const auto fixed = all_fixed(graph, boundary);
@@ -102,7 +65,7 @@ GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> cond
     auto [vessel, junction, unknowns, system] =
         core_of(reduction, junctions, fixed, sum_of_inflows(boundary));
     const std::size_t floating = system.spread_fixed_pressures();
-    if (floating < unknowns) throw_floating(graph, junction[floating]);
+    if (floating < unknowns) throw_floating(name_of_first(graph, junction[floating]));
     result.solver = choose_solver(options, unknowns);
     result.core_junctions = static_cast<std::int64_t>(unknowns);
     if (unknowns > 0) {
@@ -117,33 +80,6 @@ GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> cond
   result.pressure = reduction.take_pressure();
   result.flow = reduction.take_flow();
   return result;
-}
-
-/// Fills in inflow and imbalance of the flows as they are, and forgets the ghosts.
-void judge(const network::Graph& graph, const Boundary& boundary, double smallest_inflow, GraphFlow& result) {
-  auto outflow =
-      large_array<double>(graph.junctions);  // through vessels and ghosts, less what a condition injects
-  for (std::size_t v = 0; v < graph.vessels(); ++v) {
-    outflow[graph.from[v]] += result.flow[v];
-    outflow[graph.to[v]] -= result.flow[v];
-  }
-  result.inflow = sum_of_inflows(boundary);
-  for (std::size_t n = 0; n < boundary.ghosts.size(); ++n) {
-    const double out = result.flow[graph.vessels() + n];
-    outflow[boundary.ghosts[n].junction] += out;
-    result.inflow += std::max(-out, 0.0);
-  }
-  for (const auto& inflow : boundary.inflows) outflow[inflow.junction] -= inflow.flow;
-  for (const auto& fixed : boundary.fixed) {
-    result.inflow += std::max(outflow[fixed.junction], 0.0);
-    outflow[fixed.junction] = 0;
-  }
-  double worst = 0;
-  for (const double out : outflow) worst = std::max(worst, std::abs(out));
-  const double scale = std::max(result.inflow, smallest_inflow);
-  result.max_imbalance = worst == 0 ? 0 : worst / scale;
-  result.flow.resize(graph.vessels());
-  result.pressure.resize(graph.junctions);
 }
 
 }  // namespace
@@ -190,17 +126,16 @@ void check_flow_problem(const network::Graph& graph, std::span<const network::Co
 GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,
                      std::span<const network::Condition> conditions, const GraphSolverOptions& options) {
   check_vessels(graph, conductance);
-  const Boundary boundary = sort_conditions(graph, conditions);
+  const NameOfJunction name = [&](std::size_t j) { return graph.name_of_junction(j); };
+  const Boundary boundary = sort_conditions(graph, conditions, name);
+  const std::vector<bool> connected = junctions_with_vessels(graph);
+  for (const auto& inflow : boundary.inflows) {
+    if (!connected[inflow.junction]) throw_inflow_without_vessels(name(inflow.junction));
+  }
   double resolution = 0;
   GraphFlow result = reduce_and_solve(graph, std::move(conductance), boundary, options, resolution);
-  judge(graph, boundary, resolution / options.imbalance, result);
-  for (std::size_t j = 0; j < graph.junctions; ++j) {
-    if (!boundary.has_vessels[j]) result.pressure[j] = std::numeric_limits<double>::quiet_NaN();
-  }
-  for (const auto& [junction, pressure] : boundary.fixed) result.pressure[junction] = pressure;
-  for (const auto& ghost : boundary.ghosts) {
-    if (!boundary.has_vessels[ghost.junction]) result.pressure[ghost.junction] = ghost.pressure;
-  }
+  judge(graph, boundary, resolution / options.imbalance, nullptr, result);
+  set_pressures_of_conditions(boundary, connected, result.pressure);
   return result;
 }
 
