@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/large_array.hpp"
+#include "parallel/large_array.hpp"
 
 namespace rhexis::hemodynamics {
 
@@ -14,12 +14,12 @@ Reduction reducible(const network::Graph& graph, std::vector<double> conductance
   const std::size_t junctions = graph.junctions + boundary.ghosts.size();
   const std::size_t vessels = graph.vessels() + boundary.ghosts.size();
   std::vector<std::uint32_t> tail, head;
-  reserve_large(tail, vessels);
-  reserve_large(head, vessels);
+  parallel::reserve_large(tail, vessels);
+  parallel::reserve_large(head, vessels);
   conductance.reserve(vessels);
   tail.assign(graph.from.begin(), graph.from.end());
   head.assign(graph.to.begin(), graph.to.end());
-  auto injection = large_array<double>(junctions);
+  auto injection = parallel::large_array<double>(junctions);
   std::vector<bool> kept(junctions);
   for (std::size_t n = 0; n < boundary.ghosts.size(); ++n) {
     tail.push_back(boundary.ghosts[n].junction);
@@ -49,8 +49,8 @@ double sum_of_inflows(const Boundary& boundary) {
 
 void judge(const network::Graph& graph, const Boundary& boundary, double smallest_inflow,
            parallel::SharedValues* shared, GraphFlow& result) {
-  auto outflow =
-      large_array<double>(graph.junctions);  // through vessels and ghosts, less what a condition injects
+  auto outflow = parallel::large_array<double>(
+      graph.junctions);  // through vessels and ghosts, less what a condition injects
   for (std::size_t v = 0; v < graph.vessels(); ++v) {
     outflow[graph.from[v]] += result.flow[v];
     outflow[graph.to[v]] -= result.flow[v];

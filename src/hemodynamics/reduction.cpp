@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/large_array.hpp"
+#include "parallel/large_array.hpp"
 
 namespace rhexis::hemodynamics {
 namespace {
@@ -25,17 +25,17 @@ Reduction::Reduction(std::vector<std::uint32_t> tail, std::vector<std::uint32_t>
     : tail_(std::move(tail)),
       head_(std::move(head)),
       conductance_(std::move(conductance)),
-      flow_(large_array<double>(conductance_.size())),
+      flow_(parallel::large_array<double>(conductance_.size())),
       value_(std::move(injection)),
       kept_(std::move(kept)) {}
 
 void Reduction::list_vessels() {
   const std::size_t junctions = value_.size();
-  first_ = large_array<std::uint32_t>(junctions + 1);
+  first_ = parallel::large_array<std::uint32_t>(junctions + 1);
   for (const auto* ends : {&tail_, &head_}) {
     for (const std::uint32_t j : *ends) ++first_[j];
   }
-  degree_ = large_array<std::uint32_t>(junctions);
+  degree_ = parallel::large_array<std::uint32_t>(junctions);
   std::uint32_t past = 0;
   for (std::size_t j = 0; j < junctions; ++j) {
     degree_[j] = first_[j];
@@ -43,7 +43,7 @@ void Reduction::list_vessels() {
     first_[j] = past;
   }
   first_[junctions] = past;
-  vessels_ = large_array<std::uint32_t>(2 * tail_.size());
+  vessels_ = parallel::large_array<std::uint32_t>(2 * tail_.size());
   for (std::size_t v = tail_.size(); v-- > 0;) {
     vessels_[--first_[head_[v]]] = static_cast<std::uint32_t>(v);
     vessels_[--first_[tail_[v]]] = static_cast<std::uint32_t>(v);
@@ -52,7 +52,8 @@ void Reduction::list_vessels() {
 
 void Reduction::reduce() {
   list_vessels();
-  reserve_large(removals_, 2 * tail_.size());  // never more; pages that are not written cost nothing
+  parallel::reserve_large(removals_,
+                          2 * tail_.size());  // never more; pages that are not written cost nothing
   for (std::uint32_t j = 0; j < degree_.size(); ++j) settle(j);
   for (int round = 0; round < max_hub_rounds; ++round) {
     const std::size_t before = removals_.size();

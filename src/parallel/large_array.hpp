@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace rhexis {
+namespace rhexis::parallel {
 
 /// Reserves room for `count` entries in an empty vector.
 template <class T>
@@ -32,4 +32,4 @@ std::vector<T> large_array(std::size_t count, T value = T{}) {
   return array;
 }
 
-}  // namespace rhexis
+}  // namespace rhexis::parallel
