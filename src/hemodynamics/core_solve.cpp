@@ -13,8 +13,10 @@
 namespace rhexis::hemodynamics {
 namespace {
 
-// Fewer unknowns than this are not worth waking threads for.
-constexpr std::size_t serial_unknowns = 20000;
+// Fewer unknowns than this are not worth waking threads for: most of an iteration is the preconditioner,
+// which is of one thread, and on a busy machine waiting for the other threads costs several times what they
+// save.
+constexpr std::size_t serial_unknowns = 400000;
 
 // One round of conjugate gradients is not asked for more than doubles can give.
 constexpr double reduction_per_round = 1e-10;

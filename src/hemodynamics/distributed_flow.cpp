@@ -25,7 +25,8 @@ struct Left {
 
 Left what_is_left(const DistributedGraph& graph, const JunctionDirectory& directory,
                   const Reduction& reduction) {
-  const auto& [links, connected, boundary] = directory;
+  const auto& links = directory.links;
+  const Boundary& boundary = directory.boundary;
   Left left{reduction.vessels_left(), {}, {}, links};
   std::vector<std::uint32_t> number(graph.local.junctions + boundary.ghosts.size(), none);
   const auto id_of = [&](std::uint32_t j) {
@@ -44,7 +45,7 @@ Left what_is_left(const DistributedGraph& graph, const JunctionDirectory& direct
   for (const auto& link : links) {
     for (const auto* side : {&link.owned, &link.borrowed}) {
       for (const std::uint32_t j : *side) {
-        if (connected[j]) add(j, reduction.injection(j), false);
+        if (directory.connected[j]) add(j, reduction.injection(j), false);
       }
     }
   }

@@ -51,6 +51,22 @@ Core core_of(const Reduction& reduction, std::size_t junctions, const std::vecto
           CoreSystem(unknowns, std::move(vessels), std::move(injection), pressure, inflow)};
 }
 
+/// Where the choice is ours, a complete factor that rounding has spoilt gives way to the approximate one,
+/// which it cannot spoil; `solver` says so.
+std::int64_t solve_by(GraphSolver& solver, CoreSystem& system, const GraphSolverOptions& options) {
+  if (options.solver == GraphSolver::automatic && solver == GraphSolver::ldlt) {
+    try {
+      const auto factor = make_preconditioner(system, solver);
+      return solve_core(system, *factor, solver, options);
+    } catch (const RunError&) {
+      solver = GraphSolver::approximate_cholesky;
+      system.spread_fixed_pressures();
+    }
+  }
+  const auto preconditioner = make_preconditioner(system, solver);
+  return solve_core(system, *preconditioner, solver, options);
+}
+
 /// Pressures and flows, ghosts included; solver, iterations, size of the core.
 GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> conductance,
                            const Boundary& boundary, const GraphSolverOptions& options, double& resolution) {
@@ -68,10 +84,7 @@ GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> cond
     if (floating < unknowns) throw_floating(name_of_first(graph, junction[floating]));
     result.solver = choose_solver(options, unknowns);
     result.core_junctions = static_cast<std::int64_t>(unknowns);
-    if (unknowns > 0) {
-      const auto preconditioner = make_preconditioner(system, result.solver);
-      result.iterations = solve_core(system, *preconditioner, result.solver, options);
-    }
+    if (unknowns > 0) result.iterations = solve_by(result.solver, system, options);
     resolution = system.resolution();
     for (std::size_t n = 0; n < junction.size(); ++n) reduction.set_pressure(junction[n], system.pressure(n));
     for (std::size_t n = 0; n < vessel.size(); ++n) reduction.set_flow(vessel[n], system.flow(n));
