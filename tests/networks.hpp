@@ -60,15 +60,16 @@ inline TreePair tree_pair(int generations) {
   return pair;
 }
 
-/// Lognormal, stretched so that the largest is `contrast` times the smallest; the median is about 1.
+/// Lognormal, stretched so that the largest is `contrast` times the smallest; 1 is halfway between.
 inline std::vector<double> conductances(std::size_t count, double contrast, unsigned seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   std::vector<double> result(count);
   for (double& g : result) g = normal(random);
+  if (result.empty()) return result;
   const auto [low, high] = std::minmax_element(result.begin(), result.end());
-  const double scale = count > 1 ? std::log(contrast) / (*high - *low) : 0;
-  for (double& g : result) g = std::exp(scale * g);
+  const double scale = count > 1 ? std::log(contrast) / (*high - *low) : 0, middle = (*low + *high) / 2;
+  for (double& g : result) g = std::exp(scale * (g - middle));
   return result;
 }
 
