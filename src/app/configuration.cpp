@@ -149,6 +149,10 @@ void resolve_vessel(Configuration& c) {
 void resolve_network(Configuration& c, parallel::Communicator comm) {
   network::Parameters& n = c.network;
   hemodynamics::resolve(c.hemodynamics);
+  const bool explicit_tier = n.tier == "explicit" || (n.tier == "auto" && n.source == "file");
+  if (c.hemodynamics.phase_separation && !explicit_tier) {
+    throw InputError("phase separation needs network.tier = \"explicit\"", "blood.phase_separation");
+  }
   if (n.source == "file") {
     if (n.files.empty() || n.files.size() > 2) {
       throw InputError("name one VTP or JSON file, or two CSV files (junctions, vessels)", "network.files");
@@ -176,9 +180,6 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
         "an explicit network of more than 27 generations needs more memory than a machine has; take "
         "\"implicit\"",
         "network.tier");
-  }
-  if (c.hemodynamics.phase_separation && (n.tier == "auto" || n.tier == "implicit")) {
-    throw InputError("phase separation needs network.tier = \"explicit\"", "blood.phase_separation");
   }
 }
 

@@ -2,9 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <numeric>
 
 #include "app/console.hpp"
 #include "app/graph_network.hpp"
@@ -67,9 +64,12 @@ class ExplicitTier : public NetworkTier {
     s.max_imbalance = flow.max_imbalance;
     s.solver = hemodynamics::name_of(flow.solver);
     if (flow.iterations > 0) s.iterations = flow.iterations;
-    add_weight(network_, mechanics_.hydrostatic, flow.pressure);
+    add_weight(network_.graph, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
-    for (std::size_t i = 0; i < queried_.size(); ++i) s.queries.push_back(query(i, flow));
+    for (std::size_t i = 0; i < queried_.size(); ++i) {
+      s.queries.push_back(describe_vessel(network_.graph, flow, queried_[i], mechanics_));
+      s.queries.back().name = c_.network.query[i];
+    }
     if (graph.vessels() <= longest_table) fill_table(flow, s);
     show(flow, s);
   }
@@ -96,44 +96,12 @@ class ExplicitTier : public NetworkTier {
   }
 
   void measure(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
-    const Graph& g = network_.graph;
-    double volume = 0, surface = 0;
-    for (std::size_t v = 0; v < g.vessels(); ++v) {
-      const double side = 2 * std::numbers::pi * g.radius[v] * g.length[v];
-      surface += side;
-      volume += side * g.radius[v] / 2;
-    }
+    const auto [volume, surface] = lumen_of(network_.graph);
     s.volume = volume;
     s.surface = surface;
-    s.highest_pressure = -INFINITY;
-    s.lowest_pressure = INFINITY;
-    for (const double p : flow.pressure) {
-      if (std::isnan(p)) continue;
-      s.highest_pressure = std::max(s.highest_pressure, p);
-      s.lowest_pressure = std::min(s.lowest_pressure, p);
-    }
-  }
-
-  QueriedVessel query(std::size_t i, const hemodynamics::GraphFlow& flow) const {
-    const Graph& g = network_.graph;
-    const std::uint32_t v = queried_[i];
-    QueriedVessel q{.name = c_.network.query[i],
-                    .vessel = v,
-                    .kind = g.kind.empty() ? network::VesselKind::unknown : g.kind[v],
-                    .generation = g.generation.empty() ? -1 : g.generation[v],
-                    .radius = g.radius[v],
-                    .length = g.length[v],
-                    .wall_thickness = hemodynamics::wall_thickness(g, v, mechanics_),
-                    .flow = flow.flow[v],
-                    .pressure_from = flow.pressure[g.from[v]],
-                    .pressure_to = flow.pressure[g.to[v]],
-                    .start = {},
-                    .end = {}};
-    if (!g.x.empty()) {
-      q.start = {g.x[g.from[v]], g.y[g.from[v]], g.z[g.from[v]]};
-      q.end = {g.x[g.to[v]], g.y[g.to[v]], g.z[g.to[v]]};
-    }
-    return q;
+    const auto [low, high] = extremes_of(flow.pressure);
+    s.lowest_pressure = low;
+    s.highest_pressure = high;
   }
 
   void fill_table(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
@@ -148,7 +116,7 @@ class ExplicitTier : public NetworkTier {
 
   void show(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
     if (network_.graph.x.empty()) {
-      s.warnings.push_back("the junctions have no coordinates: no lines to store and draw");
+      s.warnings.push_back(no_coordinates);
       return;
     }
     const auto shown = widest_vessels(network_.graph, most_shown(c_));

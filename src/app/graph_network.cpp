@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <numeric>
 
 #include "app/console.hpp"
@@ -54,11 +57,50 @@ network::BoundedGraph make_graph_network(const Configuration& c,
   throw InputError("files cannot be read yet", "network.files");
 }
 
-void add_weight(const network::BoundedGraph& network, const hemodynamics::Hydrostatic& hydrostatic,
-                std::vector<double>& pressure) {
+void add_weight(const Graph& g, const hemodynamics::Hydrostatic& hydrostatic, std::vector<double>& pressure) {
   if (!hydrostatic.acts()) return;
-  const Graph& g = network.graph;
   for (std::size_t j = 0; j < g.junctions; ++j) pressure[j] += hydrostatic.pressure(g.x[j], g.y[j], g.z[j]);
+}
+
+std::array<double, 2> lumen_of(const Graph& g) {
+  double volume = 0, surface = 0;
+  for (std::size_t v = 0; v < g.vessels(); ++v) {
+    const double side = 2 * std::numbers::pi * g.radius[v] * g.length[v];
+    surface += side;
+    volume += side * g.radius[v] / 2;
+  }
+  return {volume, surface};
+}
+
+std::array<double, 2> extremes_of(const std::vector<double>& pressure) {
+  std::array<double, 2> extremes{std::numeric_limits<double>::infinity(),
+                                 -std::numeric_limits<double>::infinity()};
+  for (const double p : pressure) {
+    if (std::isnan(p)) continue;
+    extremes = {std::min(extremes[0], p), std::max(extremes[1], p)};
+  }
+  return extremes;
+}
+
+QueriedVessel describe_vessel(const Graph& g, const hemodynamics::GraphFlow& flow, std::uint32_t v,
+                              const hemodynamics::VesselMechanics& mechanics) {
+  QueriedVessel q{.name = {},
+                  .vessel = v,
+                  .kind = g.kind.empty() ? network::VesselKind::unknown : g.kind[v],
+                  .generation = g.generation.empty() ? -1 : g.generation[v],
+                  .radius = g.radius[v],
+                  .length = g.length[v],
+                  .wall_thickness = hemodynamics::wall_thickness(g, v, mechanics),
+                  .flow = flow.flow[v],
+                  .pressure_from = flow.pressure[g.from[v]],
+                  .pressure_to = flow.pressure[g.to[v]],
+                  .start = {},
+                  .end = {}};
+  if (!g.x.empty()) {
+    q.start = {g.x[g.from[v]], g.y[g.from[v]], g.z[g.from[v]]};
+    q.end = {g.x[g.to[v]], g.y[g.to[v]], g.z[g.to[v]]};
+  }
+  return q;
 }
 
 std::vector<double> conductances(const Graph& graph, const hemodynamics::Viscosity& viscosity,

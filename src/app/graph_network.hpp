@@ -1,11 +1,13 @@
 /// Explicit networks from the configuration: what the tiers that hold a graph have in common.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/configuration.hpp"
+#include "app/network_tier.hpp"
 #include "hemodynamics/graph_flow.hpp"
 #include "hemodynamics/hydrostatic.hpp"
 #include "network/graph.hpp"
@@ -27,7 +29,7 @@ std::vector<network::Condition> tree_conditions(const Configuration& c, const ne
                                                 std::uint32_t inlet, std::uint32_t outlet);
 
 /// Adds the weight of blood to the pressures [J] of the solver.
-void add_weight(const network::BoundedGraph& network, const hemodynamics::Hydrostatic& hydrostatic,
+void add_weight(const network::Graph& graph, const hemodynamics::Hydrostatic& hydrostatic,
                 std::vector<double>& pressure);
 
 /// Of every vessel by Eq. (9), m3/(s Pa); `haematocrit` [V], or empty: the inflowing blood's.
@@ -42,6 +44,18 @@ std::uint32_t find_vessel(const Configuration& c, const network::Graph& graph, c
 
 /// At most `count` vessels, the widest, in ascending order of their numbers.
 std::vector<std::uint32_t> widest_vessels(const network::Graph& graph, std::size_t count);
+
+/// Volume (m3) and wall surface (m2) of all lumens.
+std::array<double, 2> lumen_of(const network::Graph& graph);
+
+/// The lowest and the highest of pressures that are not nan.
+std::array<double, 2> extremes_of(const std::vector<double>& pressure);
+
+/// All of one vessel but its name as asked.
+QueriedVessel describe_vessel(const network::Graph& graph, const hemodynamics::GraphFlow& flow,
+                              std::uint32_t vessel, const hemodynamics::VesselMechanics& mechanics);
+
+inline constexpr const char* no_coordinates = "the junctions have no coordinates: no lines to store and draw";
 
 /// network.shown_vessels.
 std::size_t most_shown(const Configuration& c);

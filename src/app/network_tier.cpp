@@ -6,6 +6,7 @@ std::unique_ptr<NetworkTier> make_tier(const Configuration& c, parallel::Communi
   const bool is_tree = c.network.source == "tree";
   if (c.network.tier == "implicit" || (c.network.tier == "auto" && is_tree))
     return make_implicit_tier(c, comm);
+  if (c.network.tier == "distributed") return make_distributed_tier(c, comm);
   return make_explicit_tier(c, comm);
 }
 

@@ -95,6 +95,16 @@ GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> cond
   return result;
 }
 
+Boundary checked_boundary(const network::Graph& graph, std::span<const network::Condition> conditions,
+                          const std::vector<bool>& connected) {
+  const NameOfJunction name = [&](std::size_t j) { return graph.name_of_junction(j); };
+  Boundary boundary = sort_conditions(graph, conditions, name);
+  for (const auto& inflow : boundary.inflows) {
+    if (!connected[inflow.junction]) throw_inflow_without_vessels(name(inflow.junction));
+  }
+  return boundary;
+}
+
 }  // namespace
 
 std::string_view name_of(GraphSolver solver) {
@@ -116,7 +126,8 @@ std::string_view name_of(GraphSolver solver) {
 }
 
 void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions) {
-  const Boundary boundary = sort_conditions(graph, conditions);
+  const std::vector<bool> connected = junctions_with_vessels(graph);
+  const Boundary boundary = checked_boundary(graph, conditions, connected);
   // Every junction points towards the representative of its component, the one of the lowest number.
   std::vector<std::uint32_t> towards(graph.junctions);
   std::iota(towards.begin(), towards.end(), 0u);
@@ -132,19 +143,15 @@ void check_flow_problem(const network::Graph& graph, std::span<const network::Co
   for (const auto& fixed : boundary.fixed) held[representative(fixed.junction)] = true;
   for (const auto& ghost : boundary.ghosts) held[representative(ghost.junction)] = true;
   for (std::uint32_t j = 0; j < graph.junctions; ++j) {
-    if (boundary.has_vessels[j] && !held[representative(j)]) throw_floating(graph, j);
+    if (connected[j] && !held[representative(j)]) throw_floating(name_of_first(graph, j));
   }
 }
 
 GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,
                      std::span<const network::Condition> conditions, const GraphSolverOptions& options) {
   check_vessels(graph, conductance);
-  const NameOfJunction name = [&](std::size_t j) { return graph.name_of_junction(j); };
-  const Boundary boundary = sort_conditions(graph, conditions, name);
   const std::vector<bool> connected = junctions_with_vessels(graph);
-  for (const auto& inflow : boundary.inflows) {
-    if (!connected[inflow.junction]) throw_inflow_without_vessels(name(inflow.junction));
-  }
+  const Boundary boundary = checked_boundary(graph, conditions, connected);
   double resolution = 0;
   GraphFlow result = reduce_and_solve(graph, std::move(conductance), boundary, options, resolution);
   judge(graph, boundary, resolution / options.imbalance, nullptr, result);

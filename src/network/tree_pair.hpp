@@ -72,6 +72,15 @@ class TreePair {
   /// for more than 30 generations (junction numbers of 32 bits).
   Graph materialise(bool coordinates = true) const;
 
+  /// One of several parts that together are the whole: the places of an even share of a generation with all
+  /// that hangs below them; the first part also has what lies above. Junctions keep their numbers of the
+  /// whole in `junction_id` [J]. Vessels in the order of ids are `vessel_id` [V].
+  struct Part {
+    Graph graph;
+    std::vector<std::int64_t> junction_id, vessel_id;
+  };
+  Part materialise_part(int part, int parts) const;
+
   /// Position of the far end of an artery and what its daughters need of it.
   struct Place {
     double capacity = 1;

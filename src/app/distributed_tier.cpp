@@ -1,0 +1,216 @@
+// Tier 3: the network over the memory of all ranks.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/console.hpp"
+#include "app/graph_network.hpp"
+#include "app/network_tier.hpp"
+#include "app/stopwatch.hpp"
+#include "core/error.hpp"
+#include "hemodynamics/distributed_flow.hpp"
+#include "network/tree_pair.hpp"
+#include "output/together.hpp"
+
+namespace rhexis::app {
+namespace {
+
+using network::Graph;
+
+class DistributedTier : public NetworkTier {
+ public:
+  DistributedTier(const Configuration& c, parallel::Communicator comm)
+      : c_(c), comm_(comm), mechanics_(mechanics_of(c)) {}
+
+  std::string description() const override {
+    return describe_source(c_) + fmt::format(", over {} rank{}", comm_.size(), comm_.size() > 1 ? "s" : "");
+  }
+
+  void prepare() override {
+    output::together<InputError>(comm_, [&] {
+      if (c_.network.source == "tree") {
+        take_tree_part();
+      } else {
+        take_slice_of_file();
+      }
+    });
+  }
+
+  NetworkSolution solve(const Say& say) override {
+    NetworkSolution s;
+    double spent = 0;
+    hemodynamics::GraphFlow flow;
+    {
+      const Stopwatch watch(spent);
+      flow = hemodynamics::solve_flow(part_, conductances(part_.local, mechanics_.viscosity, {}), conditions_,
+                                      solver_options(c_), comm_);
+    }
+    say(fmt::format("  flow found in {}: {} unknowns after every rank's elimination", duration(spent),
+                    grouped(flow.core_junctions)));
+    s.vessels = total(static_cast<std::int64_t>(part_.local.vessels()));
+    s.junctions = count_junctions();
+    s.inflow = flow.inflow;
+    s.max_imbalance = flow.max_imbalance;
+    s.solver = fmt::format("distributed, {}", hemodynamics::name_of(flow.solver));
+    if (flow.iterations > 0) s.iterations = flow.iterations;
+    add_weight(part_.local, mechanics_.hydrostatic, flow.pressure);
+    measure(flow, s);
+    for (const std::string& name : c_.network.query) s.queries.push_back(query(name, flow));
+    show(flow, s);
+    return s;
+  }
+
+ private:
+  void take_tree_part() {
+    const network::TreePair tree(c_.tree);
+    auto part = tree.materialise_part(comm_.rank(), comm_.size());
+    part_ = {std::move(part.graph), std::move(part.junction_id)};
+    vessel_id_ = std::move(part.vessel_id);
+    const std::int64_t outlet = std::int64_t{1} << c_.tree.generations;
+    const auto local = [&](std::int64_t id) {
+      return std::find(part_.junction_id.begin(), part_.junction_id.end(), id) - part_.junction_id.begin();
+    };
+    if (comm_.is_root()) {
+      conditions_ = tree_conditions(c_, tree, mechanics_.hydrostatic, static_cast<std::uint32_t>(local(0)),
+                                    static_cast<std::uint32_t>(local(outlet)));
+    }
+  }
+
+  /// Every rank reads the files, and keeps an even share of the vessels.
+  void take_slice_of_file() {
+    const network::BoundedGraph whole = make_graph_network(c_, mechanics_.hydrostatic);
+    hemodynamics::check_flow_problem(whole.graph, whole.conditions);
+    const auto share = [&](int r) {
+      return whole.graph.vessels() * static_cast<std::size_t>(r) / static_cast<std::size_t>(comm_.size());
+    };
+    slice(whole, share(comm_.rank()), share(comm_.rank() + 1));
+  }
+
+  void slice(const network::BoundedGraph& whole, std::size_t begin, std::size_t end) {
+    constexpr std::uint32_t none = 0xffffffff;
+    const Graph& g = whole.graph;
+    Graph& own = part_.local;
+    std::vector<std::uint32_t> local(g.junctions, none);
+    const auto take = [&](std::uint32_t j) {
+      if (local[j] == none) {
+        local[j] = static_cast<std::uint32_t>(own.junctions++);
+        part_.junction_id.push_back(j);
+        own.junction_name.push_back(g.name_of_junction(j));
+        if (!g.x.empty()) {
+          own.x.push_back(g.x[j]);
+          own.y.push_back(g.y[j]);
+          own.z.push_back(g.z[j]);
+        }
+      }
+      return local[j];
+    };
+    for (std::size_t v = begin; v < end; ++v) {
+      own.from.push_back(take(g.from[v]));
+      own.to.push_back(take(g.to[v]));
+      own.radius.push_back(g.radius[v]);
+      own.length.push_back(g.length[v]);
+      own.vessel_name.push_back(g.name_of_vessel(v));
+      if (!g.wall_thickness.empty()) own.wall_thickness.push_back(g.wall_thickness[v]);
+      if (!g.kind.empty()) own.kind.push_back(g.kind[v]);
+      if (!g.generation.empty()) own.generation.push_back(g.generation[v]);
+      vessel_id_.push_back(static_cast<std::int64_t>(v));
+    }
+    for (network::Condition condition : whole.conditions) {
+      if (local[condition.junction] == none) continue;
+      condition.junction = local[condition.junction];
+      conditions_.push_back(condition);
+    }
+  }
+
+  std::int64_t total(std::int64_t own) const { return comm_.all_reduce(own, parallel::Reduce::sum); }
+
+  /// Of the whole: the tree's by its rules; else the greatest number there is.
+  std::int64_t count_junctions() const {
+    if (c_.network.source == "tree") {
+      return static_cast<std::int64_t>(network::TreePair(c_.tree).junctions());
+    }
+    std::int64_t most = -1;
+    for (const std::int64_t id : part_.junction_id) most = std::max(most, id);
+    return comm_.all_reduce(most, parallel::Reduce::max) + 1;
+  }
+
+  void measure(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
+    auto sums = lumen_of(part_.local);
+    comm_.all_reduce(sums, parallel::Reduce::sum);
+    s.volume = sums[0];
+    s.surface = sums[1];
+    const auto [low, high] = extremes_of(flow.pressure);
+    s.lowest_pressure = comm_.all_reduce(low, parallel::Reduce::min);
+    s.highest_pressure = comm_.all_reduce(high, parallel::Reduce::max);
+  }
+
+  /// By the rank that has the vessel.
+  QueriedVessel query(const std::string& name, const hemodynamics::GraphFlow& flow) const {
+    std::int64_t local = -1;
+    if (c_.network.source == "tree") {
+      const auto id = static_cast<std::int64_t>(network::TreePair(c_.tree).id_of(name));
+      const auto found = std::find(vessel_id_.begin(), vessel_id_.end(), id);
+      if (found != vessel_id_.end()) local = found - vessel_id_.begin();
+    } else {
+      const auto& names = part_.local.vessel_name;
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found != names.end()) local = found - names.begin();
+    }
+    if (total(local >= 0) == 0) throw RunError("network.query: there is no vessel '" + name + "'");
+    QueriedVessel q;
+    double values[9] = {};
+    if (local >= 0) {
+      q = describe_vessel(part_.local, flow, static_cast<std::uint32_t>(local), mechanics_);
+      const double own[9] = {static_cast<double>(vessel_id_[static_cast<std::size_t>(local)]),
+                             static_cast<double>(q.kind),
+                             static_cast<double>(q.generation),
+                             q.radius,
+                             q.length,
+                             q.wall_thickness,
+                             q.flow,
+                             q.pressure_from,
+                             q.pressure_to};
+      std::copy_n(own, 9, values);
+    }
+    comm_.all_reduce(values, parallel::Reduce::sum);
+    q.name = name;
+    q.vessel = static_cast<std::int64_t>(values[0]);
+    q.kind = static_cast<network::VesselKind>(values[1]);
+    q.generation = static_cast<int>(values[2]);
+    q.radius = values[3];
+    q.length = values[4];
+    q.wall_thickness = values[5];
+    q.flow = values[6];
+    q.pressure_from = values[7];
+    q.pressure_to = values[8];
+    return q;
+  }
+
+  /// Each rank shows an even share of the budget, its widest.
+  void show(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
+    if (part_.local.x.empty() && part_.local.vessels() > 0) {
+      s.warnings.push_back(no_coordinates);
+      return;
+    }
+    const std::size_t most =
+        std::max<std::size_t>(1, most_shown(c_) / static_cast<std::size_t>(comm_.size()));
+    const auto shown = widest_vessels(part_.local, most);
+    s.lines = hemodynamics::VesselLines::of_graph(part_.local, flow, shown, {}, mechanics_);
+    s.shown = total(static_cast<std::int64_t>(shown.size()));
+  }
+
+  const Configuration& c_;
+  parallel::Communicator comm_;
+  hemodynamics::VesselMechanics mechanics_;
+  hemodynamics::DistributedGraph part_;
+  std::vector<std::int64_t> vessel_id_;  ///< [V] number in the whole
+  std::vector<network::Condition> conditions_;
+};
+
+}  // namespace
+
+std::unique_ptr<NetworkTier> make_distributed_tier(const Configuration& c, parallel::Communicator comm) {
+  return std::make_unique<DistributedTier>(c, comm);
+}
+
+}  // namespace rhexis::app
