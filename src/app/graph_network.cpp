@@ -12,6 +12,8 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
+#include "input/units.hpp"
+#include "network/network_file.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/threads.hpp"
@@ -54,7 +56,18 @@ network::BoundedGraph make_graph_network(const Configuration& c,
                                          static_cast<std::uint32_t>(std::uint64_t{1} << c.tree.generations));
     return network;
   }
-  throw InputError("files cannot be read yet", "network.files");
+  network = network::read_network(c.network.files, c.network.file_length_unit, input::to_si);
+  const Graph& g = network.graph;
+  if (!hydrostatic.acts()) return network;
+  if (g.x.empty())
+    throw InputError("needs coordinates of the junctions, and the files have none", "flow.acceleration");
+  for (network::Condition& condition : network.conditions) {
+    const std::uint32_t j = condition.junction;
+    if (condition.kind == network::Condition::Kind::pressure) {
+      condition.value -= hydrostatic.pressure(g.x[j], g.y[j], g.z[j]);
+    }
+  }
+  return network;
 }
 
 void add_weight(const Graph& g, const hemodynamics::Hydrostatic& hydrostatic, std::vector<double>& pressure) {

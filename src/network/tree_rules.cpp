@@ -26,13 +26,9 @@ double exponent_between(double root, double terminal, int generations) {
 ParameterList declare(TreeParameters& p) {
   const char* recursion = "Sec. 3.3";
   return {
-      {"tree.generations",
-       &p.generations,
-       "1",
-       {},
-       "Generations k of each tree: 2 (2^k - 1) vessels in all, 34 billion for 34.",
-       recursion,
-       Range::between(1, TreeRules::most_generations)},
+      {"tree.generations", &p.generations, "1", "\"auto\"",
+       "Generations k of each tree: 2 (2^k - 1) vessels in all, 34 billion for 34; to be given for a tree.",
+       recursion, Range::between(1, TreeRules::most_generations)},
       {"tree.root_radius", &p.root_radius, "m", "\"12.5 mm\"", "Lumen radius of the first artery.", recursion,
        Range::positive()},
       {"tree.radius_exponent", &p.exponent, "1", "\"auto\"",
@@ -75,8 +71,9 @@ ParameterList declare(TreeParameters& p) {
 }
 
 TreeRules rules_from(const TreeParameters& p, const Wall& artery_wall, const Wall& vein_wall) {
+  if (!p.generations) throw InputError("is missing; give a number from 1 to 40", "tree.generations");
   TreeRules rules;
-  rules.generations = static_cast<int>(p.generations);
+  rules.generations = static_cast<int>(*p.generations);
   rules.root_radius = p.root_radius;
   if (p.exponent && p.terminal_radius) {
     throw InputError("give either tree.radius_exponent or tree.terminal_radius, not both",
@@ -88,7 +85,7 @@ TreeRules rules_from(const TreeParameters& p, const Wall& artery_wall, const Wal
       throw InputError("must be below tree.root_radius, " + quantity(p.root_radius, "m"),
                        "tree.terminal_radius");
     }
-    if (p.generations < 2) throw InputError("needs two generations at least", "tree.terminal_radius");
+    if (rules.generations < 2) throw InputError("needs two generations at least", "tree.terminal_radius");
     rules.exponent = exponent_between(p.root_radius, *p.terminal_radius, rules.generations);
     if (rules.exponent < 1 || rules.exponent > 10) {
       throw InputError("this makes xi " + text(rules.exponent) + ", which is not between 1 and 10",
@@ -103,9 +100,9 @@ TreeRules rules_from(const TreeParameters& p, const Wall& artery_wall, const Wal
   rules.seed = static_cast<std::uint64_t>(p.seed);
   rules.length_ratio = p.length_ratio;
   const std::size_t given = p.length_ratio_by_generation.size();
-  if (given != 0 && given != static_cast<std::size_t>(p.generations)) {
+  if (given != 0 && given != static_cast<std::size_t>(rules.generations)) {
     throw InputError("has " + std::to_string(given) + " values; tree.generations asks for " +
-                         std::to_string(p.generations),
+                         std::to_string(rules.generations),
                      "tree.length_ratio_by_generation");
   }
   if (given != 0 && !p.length_by_radius.empty()) {

@@ -69,7 +69,7 @@ double exponent_between(double root, double terminal, int generations);
 
 /// The input keys of [tree], as read.
 struct TreeParameters {
-  std::int64_t generations = 0;
+  std::optional<std::int64_t> generations;
   double root_radius = 0;
   std::optional<double> exponent, terminal_radius, least_asymmetry;
   double asymmetry = 1;

@@ -1,0 +1,33 @@
+#include "network/network_file.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+#include "core/error.hpp"
+
+namespace rhexis::network {
+
+std::string read_network_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) {
+    throw InputError(file.string() + ": cannot be read: " + std::strerror(errno != 0 ? errno : EISDIR));
+  }
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+    throw InputError(file.string() + ": the file is empty");
+  if (text.find('\0') != std::string::npos) throw InputError(file.string() + ": not a text file");
+  return text;
+}
+
+BoundedGraph read_network(const std::vector<std::string>& files, const std::string&, const ToSi& to_si) {
+  const auto extension = [&](std::size_t i) { return std::filesystem::path(files[i]).extension().string(); };
+  if (files.size() == 2 && extension(0) == ".csv" && extension(1) == ".csv") {
+    return read_csv_network(files[0], files[1], to_si);
+  }
+  if (files.size() == 1 && extension(0) == ".json") return read_json_network(files[0], to_si);
+  throw InputError("a network is one .json or .vtp file, or two .csv files: first junctions, then vessels");
+}
+
+}  // namespace rhexis::network

@@ -1,0 +1,42 @@
+/// Networks of the user's own, read from files.
+///
+/// CSV: two files, each with a header row that names columns (in any order) and, in brackets, their units;
+/// rows of comments (#) and empty ones are skipped, fields may stand in double quotes.
+///   junctions:  id; optional: x [mm], y [mm], z [mm]; pressure [mmHg] or flow [mL/min] (into the network);
+///               resistance [Pa s/m3] (of a peripheral bed behind which the pressure lies)
+///   vessels:    id, from, to, radius [um] or diameter [um]; optional: length [mm] (else the distance of the
+///   ends),
+///               wall_thickness [um], kind (artery, vein, unknown), generation
+/// JSON: the same names in {"units": {"length": "mm", "pressure": "mmHg", "flow": "mL/min", "resistance": "Pa
+/// s/m3"},
+///   "junctions": [{"id": "a", "x": 0, ...}, ...], "vessels": [{"id": 1, "from": "a", "to": "b", "radius":
+///   0.1}, ...]}; the unit of a kind that no member uses may be left out.
+/// VTP: see vtp_network.hpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "network/graph.hpp"
+#include "network/network_builder.hpp"
+
+namespace rhexis::network {
+
+/// Each throws InputError naming the file, line or member, value, and what is allowed.
+BoundedGraph read_csv_network(const std::filesystem::path& junctions, const std::filesystem::path& vessels,
+                              const ToSi& to_si);
+BoundedGraph read_json_network(const std::filesystem::path& file, const ToSi& to_si);
+
+/// By number and extensions of the files. `vtp_length_unit`: of lengths in a VTP file, e.g. "mm".
+BoundedGraph read_network(const std::vector<std::string>& files, const std::string& vtp_length_unit,
+                          const ToSi& to_si);
+
+/// The whole text of a file; throws InputError where it cannot be read or is empty.
+std::string read_network_text(const std::filesystem::path& file);
+
+/// Both CSV files of a network, in SI. Throws RunError.
+void write_csv_network(const BoundedGraph& network, const std::filesystem::path& junctions,
+                       const std::filesystem::path& vessels);
+
+}  // namespace rhexis::network
