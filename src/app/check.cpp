@@ -53,6 +53,10 @@ double body_bytes(const Configuration& c, const Lattice& lattice, const BondFami
 }  // namespace
 
 void check(const Configuration& c, parallel::Communicator comm) {
+  if (c.model == "network") {
+    check_network(c, comm);
+    return;
+  }
   const Lattice lattice = peridynamics::make_lattice(c.vessel);
   const BondFamilies families = peridynamics::make_families(lattice);
   const bool periodic = peridynamics::end_condition(c.vessel) == peridynamics::EndCondition::axial_periodic;

@@ -10,4 +10,8 @@ namespace rhexis::app {
 /// memory, and the time a run will take, from a few steps timed here and now.
 void check(const Configuration& c, parallel::Communicator comm);
 
+/// The same of a network: vessels, the first and a last one, memory, time. Throws InputError for a file that
+/// is wrong.
+void check_network(const Configuration& c, parallel::Communicator comm);
+
 }  // namespace rhexis::app

@@ -67,7 +67,7 @@ class ImplicitTier : public NetworkTier {
  private:
   static std::string text_of(double value) { return rhexis::text(value); }
   std::string per_vessel(double seconds) const {
-    return quantity(seconds / static_cast<double>(tree_.vessels()), "s", 2);
+    return fmt::format("{:.3g} ns", 1e9 * seconds / static_cast<double>(tree_.vessels()));
   }
   double weight(const network::Point& p) const { return mechanics_.hydrostatic.pressure(p[0], p[1], p[2]); }
 

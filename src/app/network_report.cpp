@@ -1,6 +1,8 @@
 // What a network's run says of itself: at its start, at its end, and in run.json.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/network_run.hpp"
 #include "app/version.hpp"
 #include "core/format.hpp"
@@ -13,7 +15,8 @@ std::string mmhg(double pascal) {
 }
 
 std::string flow_text(double flow) {
-  return fmt::format("{:.4g} mL/min", flow * 6e7);
+  // Prefixes are for magnitudes; a vessel may flow against its direction.
+  return fmt::format("{}{}", flow < 0 ? "-" : "", quantity(std::abs(flow) * 6e4, "L/min"));
 }
 
 const char* kind_text(network::VesselKind kind) {
@@ -77,11 +80,11 @@ void NetworkRun::say_summary() {
       // The first, the last, and every so many in between.
       const auto count = static_cast<int>(s.statistics->generations.size());
       if (g.generation % ((count + 11) / 12) != 0 && g.generation != count - 1) continue;
-      console_.line(
-          fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}", g.generation,
-                      grouped(2 * static_cast<long long>(g.vessels)), quantity(g.radius[0].mean, "m", 3),
-                      fmt::format("{:.3g} mL/min", g.flow.mean * 6e7), g.pressure[0].mean / 133.322387415,
-                      g.pressure[1].mean / 133.322387415, quantity(g.hoop_stress[0].mean, "Pa", 3)));
+      console_.line(fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}",
+                                g.generation, grouped(2 * static_cast<long long>(g.vessels)),
+                                quantity(g.radius[0].mean, "m", 3), quantity(g.flow.mean * 6e4, "L/min", 3),
+                                g.pressure[0].mean / 133.322387415, g.pressure[1].mean / 133.322387415,
+                                quantity(g.hoop_stress[0].mean, "Pa", 3)));
     }
   }
   console_.item("network", fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));

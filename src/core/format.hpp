@@ -20,8 +20,8 @@ inline std::string quantity(double value, const std::string& unit, int digits = 
     double factor;
     const char* name;
   };
-  constexpr Prefix prefixes[] = {{1e9, "G"},  {1e6, "M"},  {1e3, "k"}, {1, ""},
-                                 {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}};
+  constexpr Prefix prefixes[] = {{1e9, "G"},  {1e6, "M"},  {1e3, "k"},  {1, ""},
+                                 {1e-3, "m"}, {1e-6, "u"}, {1e-9, "n"}, {1e-12, "p"}};
   if (!std::isfinite(value)) return "-";
   // Half a unit of the last digit is added, so that 0.99999 becomes 1 and not 1000 m.
   const double rounded = std::abs(value) * (1 + 0.5 * std::pow(10, -digits));
