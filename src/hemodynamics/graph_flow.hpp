@@ -38,10 +38,15 @@ struct GraphFlow {
 void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions);
 
 /// Pressures and flows for conductances [V] in m3/(s Pa). `conductance` is consumed (its memory is reused).
-/// Throws InputError, naming junction or vessel, for: a component that has vessels but no pressure condition;
-/// a conductance that is not positive and finite; a vessel from a junction to itself; two conditions at one
-/// junction; solver `elimination` where junctions are left. Throws RunError where the imbalance asked for is
-/// not reached.
+/// 1. Series, parallel and dead-end vessels are removed exactly (reduction.hpp); trees and series-parallel
+///    networks are solved by that alone, flows to rounding, however small.
+/// 2. What is left is solved by the chosen solver (preconditioner.hpp) inside iterative refinement
+///    (core_solve.hpp), until the imbalance asked for is reached by the flows that are returned.
+/// Throws InputError, naming junction or vessel, for: a component that has vessels but no condition of
+/// pressure; a conductance that is not positive and finite; a vessel from a junction to itself or to one that
+/// does not exist; two conditions at one junction; a flow into a junction without vessels; solver
+/// `elimination` where junctions are left. Throws RunError where the imbalance asked for is not reached.
+/// Solver `amg` needs MPI to be initialised. The same input gives the same digits with any number of threads.
 GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,
                      std::span<const network::Condition> conditions, const GraphSolverOptions& options = {});
 
