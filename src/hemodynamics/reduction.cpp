@@ -54,7 +54,12 @@ void Reduction::reduce() {
   list_vessels();
   parallel::reserve_large(removals_,
                           2 * tail_.size());  // never more; pages that are not written cost nothing
-  for (std::uint32_t j = 0; j < degree_.size(); ++j) settle(j);
+  // First what needs no search for parallel vessels: on trees that is all, and a quarter of the time is
+  // saved.
+  for (const std::uint32_t longest : {2u, short_list}) {
+    longest_visited_ = longest;
+    for (std::uint32_t j = 0; j < degree_.size(); ++j) settle(j);
+  }
   for (int round = 0; round < max_hub_rounds; ++round) {
     const std::size_t before = removals_.size();
     merge_parallel_at_hubs();
@@ -75,7 +80,7 @@ void Reduction::settle(std::uint32_t junction) {
 }
 
 void Reduction::visit(std::uint32_t junction) {
-  if (degree_[junction] == 0 || degree_[junction] > short_list) return;
+  if (degree_[junction] == 0 || degree_[junction] > longest_visited_) return;
   merge_parallel_at(junction);
   if (kept_[junction]) return;
   if (degree_[junction] == 1) {

@@ -96,6 +96,7 @@ class Reduction {
   std::vector<std::uint32_t> degree_;       // [J] vessels that are left; 0: isolated or removed
   std::vector<std::uint32_t> removals_;     // junction, or pair of vessels with `parallel_mark` on the second
   std::vector<std::uint32_t> pending_;      // junctions to visit
+  std::uint32_t longest_visited_ = 0;       // degree up to which a junction is looked at
   std::uint32_t floating_ = none;
 };
 
