@@ -56,10 +56,10 @@ void check_network(const Configuration& c, parallel::Communicator comm) {
   const network::TreeVessel last = tree.vessel(tree.vessels() - 2);
   console.item(
       "first artery",
-      fmt::format("radius {}, length {}, wall {}", quantity(tree.vessel(0).radius, "m"),
+      fmt::format("artery of radius {}, length {}, wall {}", quantity(tree.vessel(0).radius, "m"),
                   quantity(tree.vessel(0).length, "m"), quantity(tree.vessel(0).wall_thickness, "m")));
-  console.item("a last artery", fmt::format("radius {}, length {}, wall {}", quantity(last.radius, "m"),
-                                            quantity(last.length, "m"), quantity(last.wall_thickness, "m")));
+  console.item("last", fmt::format("artery of radius {}, length {}, wall {}", quantity(last.radius, "m"),
+                                   quantity(last.length, "m"), quantity(last.wall_thickness, "m")));
   console.item("from heart", fmt::format("{} to the midplane", quantity(-tree.inlet()[0], "m")));
   const bool implicit = c.network.tier == "auto" || c.network.tier == "implicit";
   if (!implicit) {
