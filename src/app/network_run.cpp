@@ -80,6 +80,7 @@ void NetworkRun::solve() {
   n.lowest_pressure_Pa = solution_.lowest_pressure;
   n.solver = solution_.solver;
   n.iterations = solution_.iterations;
+  n.queries = nlohmann::ordered_json::array();
   for (const QueriedVessel& q : solution_.queries) n.queries.push_back(to_json(q));
 }
 

@@ -40,7 +40,8 @@ TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
                                       "rupture_length_m", "opening_area_m2", "energy_drift", "network"}));
   EXPECT_EQ(keys_of(json["results"]["network"]),
             (std::vector<std::string>{"vessels", "junctions", "inflow_m3_s", "max_imbalance", "volume_m3",
-                                      "solver", "iterations"}));
+                                      "surface_m2", "highest_pressure_Pa", "lowest_pressure_Pa", "solver",
+                                      "iterations", "queries"}));
   EXPECT_EQ(keys_of(json["performance"]),
             (std::vector<std::string>{"ranks", "threads", "wall_s", "solve_s", "insitu_s", "output_s",
                                       "bond_evaluations", "bond_evaluations_per_s", "flop", "peak_rss_bytes",
