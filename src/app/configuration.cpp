@@ -9,6 +9,7 @@
 #include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/reader.hpp"
+#include "input/units.hpp"
 #include "peridynamics/bond_family.hpp"
 #include "peridynamics/cross_section.hpp"
 #include "peridynamics/materials/pmb.hpp"
@@ -149,6 +150,8 @@ void resolve_vessel(Configuration& c) {
 void resolve_network(Configuration& c, parallel::Communicator comm) {
   network::Parameters& n = c.network;
   hemodynamics::resolve(c.hemodynamics);
+  if (n.vtp && n.tier == "distributed")
+    throw InputError("not with network.tier = \"distributed\"", "network.vtp");
   const bool explicit_tier = n.tier == "explicit" || (n.tier == "auto" && n.source == "file");
   if (c.hemodynamics.phase_separation && !explicit_tier) {
     throw InputError("phase separation needs network.tier = \"explicit\"", "blood.phase_separation");
@@ -158,6 +161,11 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
       throw InputError("name one VTP or JSON file, or two CSV files (junctions, vessels)", "network.files");
     }
     if (n.tier == "implicit") throw InputError("only a tree can be implicit", "network.tier");
+    try {
+      input::to_si("1 " + n.file_length_unit, "m");
+    } catch (const InputError& error) {
+      throw InputError(error.what(), "network.file_length_unit");
+    }
     find_files(n.files, "network.files", "network file", c.file, comm);
     return;
   }

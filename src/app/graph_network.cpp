@@ -16,6 +16,7 @@
 #include "network/network_file.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/large_array.hpp"
 #include "parallel/threads.hpp"
 
 namespace rhexis::app {
@@ -118,7 +119,7 @@ QueriedVessel describe_vessel(const Graph& g, const hemodynamics::GraphFlow& flo
 
 std::vector<double> conductances(const Graph& graph, const hemodynamics::Viscosity& viscosity,
                                  std::span<const double> haematocrit) {
-  std::vector<double> conductance(graph.vessels());
+  auto conductance = parallel::large_array<double>(graph.vessels());
   parallel::for_each_share(
       parallel::thread_count(), graph.vessels(), [&](int, std::size_t begin, std::size_t end) {
         // Artery and vein of a tree are neighbours and often alike.

@@ -7,6 +7,7 @@
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
+#include "network/vtp_network.hpp"
 #include "output/atomic_file.hpp"
 #include "output/directory.hpp"
 #include "output/line_series.hpp"
@@ -112,6 +113,42 @@ void NetworkRun::write_lines() {
   plan.steps = {0};
   plan.precision = output::Precision::double_precision;
   output::LineSeries(plan, solution_.lines, comm_).write(solution_.lines);
+  if (c_.network.vtp) output::on_root<RunError>(comm_, [&] { write_vtp(); });
+}
+
+/// The first rank's lines, which are all but of a distributed network.
+void NetworkRun::write_vtp() {
+  hemodynamics::VesselLines& lines = solution_.lines;
+  const auto values = [&](const char* name) {
+    const FieldView view = lines.field(name);
+    return std::span<const double>(view.component[0], view.count);
+  };
+  const auto copy = [&](const char* name) {
+    return std::vector<double>(values(name).begin(), values(name).end());
+  };
+  const FieldView position = lines.positions();
+  network::Graph graph;
+  graph.junctions = position.count;
+  graph.x.assign(position.component[0], position.component[0] + position.count);
+  graph.y.assign(position.component[1], position.component[1] + position.count);
+  graph.z.assign(position.component[2], position.component[2] + position.count);
+  const auto ends = lines.connectivity();
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    graph.from.push_back(static_cast<std::uint32_t>(ends[i]));
+    graph.to.push_back(static_cast<std::uint32_t>(ends[i + 1]));
+  }
+  graph.radius = copy("radius");
+  graph.length = copy("length");
+  for (const double kind : values("kind")) graph.kind.push_back(static_cast<network::VesselKind>(kind));
+  for (const double generation : values("generation")) {
+    graph.generation.push_back(static_cast<std::int8_t>(generation));
+  }
+  const network::NamedArray points[] = {{"pressure", values("pressure")}};
+  std::vector<network::NamedArray> cells;
+  for (const char* name : {"flow", "wall_shear_stress", "hoop_strain", "haematocrit", "vessel"}) {
+    cells.push_back({name, values(name)});
+  }
+  network::write_vtp_network(options_.directory / "network.vtp", graph, points, cells);
 }
 
 void NetworkRun::draw() {

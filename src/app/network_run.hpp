@@ -31,6 +31,7 @@ class NetworkRun {
   void solve();
   void write_tables();
   void write_lines();
+  void write_vtp();
   void draw();
   void say_summary();
   output::Performance performance() const;

@@ -17,26 +17,31 @@ constexpr double smallest_step = 1.0 / 64;
 /// Vessels at each junction, by the direction of their blood.
 struct Directed {
   std::vector<std::uint32_t> first,
-      vessel;                            ///< vessels that leave junction j: vessel[first[j] .. first[j + 1])
-  std::vector<double> inflow, cells;     ///< [J] what has arrived at a junction, m3/s
-  std::vector<std::uint32_t> order;      ///< junctions from high pressure to low
-  std::vector<std::uint32_t> widest_in;  ///< [J] the vessel that brings most, or none
+      vessel;                           ///< vessels that leave junction j: vessel[first[j] .. first[j + 1])
+  std::vector<double> inflow, cells;    ///< [J] what has arrived at a junction, m3/s
+  std::vector<std::uint32_t> order;     ///< junctions from high pressure to low
+  std::vector<std::uint32_t> bringing;  ///< [J] a vessel that brings blood, or none
+  std::vector<std::uint32_t> arrivals;  ///< [J] vessels that bring blood
 };
 
 constexpr std::uint32_t none = 0xffffffff;
 
+Directed finished(Directed d, const network::Graph& g) {
+  d.inflow.assign(g.junctions, 0.0);
+  d.cells.assign(g.junctions, 0.0);
+  return d;
+}
+
 Directed direct(const network::Graph& g, const GraphFlow& flow, double least) {
   Directed d;
   d.first.assign(g.junctions + 1, 0);
-  d.widest_in.assign(g.junctions, none);
+  d.bringing.assign(g.junctions, none);
   const auto upstream = [&](std::size_t v) { return flow.flow[v] > 0 ? g.from[v] : g.to[v]; };
   const auto downstream = [&](std::size_t v) { return flow.flow[v] > 0 ? g.to[v] : g.from[v]; };
   for (std::size_t v = 0; v < g.vessels(); ++v) {
     if (std::abs(flow.flow[v]) <= least) continue;
     ++d.first[upstream(v) + 1];
-    std::uint32_t& widest = d.widest_in[downstream(v)];
-    if (widest == none || std::abs(flow.flow[v]) > std::abs(flow.flow[widest]))
-      widest = static_cast<std::uint32_t>(v);
+    d.bringing[downstream(v)] = static_cast<std::uint32_t>(v);
   }
   std::partial_sum(d.first.begin(), d.first.end(), d.first.begin());
   d.vessel.resize(d.first.back());
@@ -46,20 +51,38 @@ Directed direct(const network::Graph& g, const GraphFlow& flow, double least) {
   }
   // Blood can only run downhill, so a junction's turn comes when all that flows into it has arrived. Counting
   // arrivals, not comparing pressures: these may be equal to the last digit at both ends of a wide vessel.
-  std::vector<std::uint32_t> awaited(g.junctions, 0);
-  for (const std::uint32_t v : d.vessel) ++awaited[downstream(v)];
+  d.arrivals.assign(g.junctions, 0);
+  for (const std::uint32_t v : d.vessel) ++d.arrivals[downstream(v)];
+  std::vector<std::uint32_t> awaited = d.arrivals;
+  std::size_t done = 0;
+  const auto pass_on = [&] {
+    for (; done < d.order.size(); ++done) {
+      const std::uint32_t j = d.order[done];
+      for (std::uint32_t k = d.first[j]; k < d.first[j + 1]; ++k) {
+        std::uint32_t& left = awaited[downstream(d.vessel[k])];
+        if (left > 0 && --left == 0) d.order.push_back(downstream(d.vessel[k]));
+      }
+    }
+  };
   for (std::uint32_t j = 0; j < g.junctions; ++j) {
     if (awaited[j] == 0) d.order.push_back(j);
   }
-  for (std::size_t i = 0; i < d.order.size(); ++i) {
-    const std::uint32_t j = d.order[i];
-    for (std::uint32_t k = d.first[j]; k < d.first[j + 1]; ++k) {
-      if (--awaited[downstream(d.vessel[k])] == 0) d.order.push_back(downstream(d.vessel[k]));
-    }
+  pass_on();
+  if (d.order.size() == g.junctions) return finished(std::move(d), g);
+  // Round-off can make tiny flows run in circles: these are cut at their highest junction.
+  std::vector<std::uint32_t> waiting;
+  for (std::uint32_t j = 0; j < g.junctions; ++j) {
+    if (awaited[j] > 0) waiting.push_back(j);
   }
-  d.inflow.assign(g.junctions, 0.0);
-  d.cells.assign(g.junctions, 0.0);
-  return d;
+  std::sort(waiting.begin(), waiting.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return flow.pressure[a] > flow.pressure[b]; });
+  for (const std::uint32_t j : waiting) {
+    if (awaited[j] == 0) continue;
+    awaited[j] = 0;
+    d.order.push_back(j);
+    pass_on();
+  }
+  return finished(std::move(d), g);
 }
 
 }  // namespace
@@ -79,13 +102,13 @@ std::vector<double> carried_haematocrit(const network::Graph& g, const GraphFlow
     const double enters = std::max(0.0, out - d.inflow[j]);
     const double mixed = (d.cells[j] + enters * inflow_haematocrit) / (d.inflow[j] + enters);
     const bool bifurcates =
-        end - begin == 2 && d.widest_in[j] != none && enters <= no_flow * largest + 1e-9 * out;
+        end - begin == 2 && d.arrivals[j] == 1 && enters <= no_flow * largest + 1e-9 * out;
     for (std::uint32_t k = begin; k < end; ++k) haematocrit[d.vessel[k]] = mixed;
     if (bifurcates && mixed > 0) {
       const std::uint32_t a = d.vessel[begin], b = d.vessel[begin + 1];
       const double qa = std::abs(flow.flow[a]), qb = std::abs(flow.flow[b]);
       const double cells = mixed * (qa + qb);
-      const double fraction = red_cell_fraction(qa / (qa + qb), mixed, 2e6 * g.radius[d.widest_in[j]],
+      const double fraction = red_cell_fraction(qa / (qa + qb), mixed, 2e6 * g.radius[d.bringing[j]],
                                                 2e6 * g.radius[a], 2e6 * g.radius[b]);
       const double into_a = std::clamp(cells * fraction, cells - densest * qb, densest * qa);
       haematocrit[a] = into_a / qa;

@@ -12,10 +12,15 @@ namespace {
 using network::VesselKind;
 
 constexpr std::array all_fields = {
-    FieldInfo{"pressure", "Pa", 1, Centring::point},  FieldInfo{"flow", "m3/s", 1, Centring::cell},
-    FieldInfo{"radius", "m", 1, Centring::cell},      FieldInfo{"generation", "1", 1, Centring::cell},
-    FieldInfo{"kind", "1", 1, Centring::cell},        FieldInfo{"wall_shear_stress", "Pa", 1, Centring::cell},
-    FieldInfo{"hoop_strain", "1", 1, Centring::cell}, FieldInfo{"haematocrit", "1", 1, Centring::cell},
+    FieldInfo{"pressure", "Pa", 1, Centring::point},
+    FieldInfo{"flow", "m3/s", 1, Centring::cell},
+    FieldInfo{"radius", "m", 1, Centring::cell},
+    FieldInfo{"length", "m", 1, Centring::cell},
+    FieldInfo{"generation", "1", 1, Centring::cell},
+    FieldInfo{"kind", "1", 1, Centring::cell},
+    FieldInfo{"wall_shear_stress", "Pa", 1, Centring::cell},
+    FieldInfo{"hoop_strain", "1", 1, Centring::cell},
+    FieldInfo{"haematocrit", "1", 1, Centring::cell},
     FieldInfo{"vessel", "1", 1, Centring::cell},
 };
 
@@ -52,6 +57,7 @@ void VesselLines::add(const Vessel& v, const VesselMechanics& mechanics) {
   const double viscosity = apparent_viscosity(mechanics.viscosity, v.radius, v.haematocrit);
   line_values_["flow"].push_back(v.flow);
   line_values_["radius"].push_back(v.radius);
+  line_values_["length"].push_back(v.length);
   line_values_["generation"].push_back(v.generation);
   line_values_["kind"].push_back(static_cast<double>(v.kind));
   line_values_["wall_shear_stress"].push_back(wall_shear_stress(v.radius, viscosity, std::abs(v.flow)));
@@ -89,12 +95,14 @@ VesselLines VesselLines::of_tree(const TreeFlow& flow, std::span<const network::
                                         lines.add_point(mirrored_near, f.vein_near + weight(mirrored_near))};
     const int generation = TreePair::generation_of(place);
     const double radius = tree.radius_of(at.capacity);
+    const double length = tree.rules().length(generation, radius) * tree.length_factor(place);
     const auto vessel = [&](VesselKind kind) {
       const double r = kind == VesselKind::artery ? radius : radius * tree.rules().vein_radius_ratio;
       return Vessel{.from = kind == VesselKind::artery ? starts.artery : ends.vein,
                     .to = kind == VesselKind::artery ? ends.artery : starts.vein,
                     .flow = f.flow,
                     .radius = r,
+                    .length = length,
                     .wall_thickness = r * wall_of(mechanics, kind).relative_thickness(r),
                     .generation = static_cast<double>(generation),
                     .haematocrit = mechanics.viscosity.haematocrit,
@@ -123,6 +131,7 @@ VesselLines VesselLines::of_graph(const network::Graph& graph, const GraphFlow& 
                .to = to,
                .flow = flow.flow[v],
                .radius = graph.radius[v],
+               .length = graph.length[v],
                .wall_thickness = wall_thickness(graph, v, mechanics),
                .generation = graph.generation.empty() ? -1.0 : graph.generation[v],
                .haematocrit = haematocrit.empty() ? mechanics.viscosity.haematocrit : haematocrit[v],

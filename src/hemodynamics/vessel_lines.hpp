@@ -60,7 +60,7 @@ class VesselLines : public LineSource {
   /// One vessel before it is added.
   struct Vessel {
     std::int64_t from, to;  ///< points
-    double flow, radius, wall_thickness, generation, haematocrit, number;
+    double flow, radius, length, wall_thickness, generation, haematocrit, number;
     network::VesselKind kind;
   };
   std::int64_t add_point(const network::Point& position, double pressure);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/error.hpp"
+#include "network/vtp_network.hpp"
 
 namespace rhexis::network {
 
@@ -21,12 +22,16 @@ std::string read_network_text(const std::filesystem::path& file) {
   return text;
 }
 
-BoundedGraph read_network(const std::vector<std::string>& files, const std::string&, const ToSi& to_si) {
+BoundedGraph read_network(const std::vector<std::string>& files, const std::string& vtp_length_unit,
+                          const ToSi& to_si) {
   const auto extension = [&](std::size_t i) { return std::filesystem::path(files[i]).extension().string(); };
   if (files.size() == 2 && extension(0) == ".csv" && extension(1) == ".csv") {
     return read_csv_network(files[0], files[1], to_si);
   }
   if (files.size() == 1 && extension(0) == ".json") return read_json_network(files[0], to_si);
+  if (files.size() == 1 && extension(0) == ".vtp") {
+    return read_vtp_network(files[0], to_si("1 " + vtp_length_unit, "m"));
+  }
   throw InputError("a network is one .json or .vtp file, or two .csv files: first junctions, then vessels");
 }
 

@@ -98,6 +98,8 @@ ParameterList declare(Parameters& p) {
        "20000 of a "
        "tree, all of a file's.",
        "", Range::between(1, 5e6)},
+      {"network.vtp", &p.vtp, "", "false",
+       "Store the vessels as network.vtp too (VTK PolyData, metres; not with the distributed tier).", ""},
       {"network.shown_subtree", &p.shown_subtree, "", "\"artery.\"",
        "Place in the tree from which on vessels are stored and drawn, e.g. the path of a vessel a few "
        "generations "

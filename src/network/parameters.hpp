@@ -31,6 +31,7 @@ struct Parameters {
   std::vector<std::string> query;
   std::optional<std::int64_t> shown_vessels;
   std::string shown_subtree;
+  bool vtp = false;
   TreeParameters tree;
   WallParameters wall;
 };

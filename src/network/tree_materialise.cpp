@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/large_array.hpp"
 #include "parallel/threads.hpp"
 
 namespace rhexis::network {
@@ -87,16 +88,16 @@ Graph TreePair::materialise(bool coordinates) const {
   }
   Graph graph;
   graph.junctions = junctions();
-  graph.from.resize(vessels());
-  graph.to.resize(vessels());
-  graph.radius.resize(vessels());
-  graph.length.resize(vessels());
-  graph.kind.resize(vessels());
-  graph.generation.resize(vessels());
+  graph.from = parallel::large_array<std::uint32_t>(vessels());
+  graph.to = parallel::large_array<std::uint32_t>(vessels());
+  graph.radius = parallel::large_array<double>(vessels());
+  graph.length = parallel::large_array<double>(vessels());
+  graph.kind = parallel::large_array<VesselKind>(vessels());
+  graph.generation = parallel::large_array<std::int8_t>(vessels());
   if (coordinates) {
-    graph.x.resize(graph.junctions);
-    graph.y.resize(graph.junctions);
-    graph.z.resize(graph.junctions);
+    graph.x = parallel::large_array<double>(graph.junctions);
+    graph.y = parallel::large_array<double>(graph.junctions);
+    graph.z = parallel::large_array<double>(graph.junctions);
   }
   const Builder builder{*this, graph, coordinates};
   if (coordinates) {

@@ -1,0 +1,40 @@
+/// Plugins: libraries that need ParaView, opened only when their work is asked for. Each is looked for in the
+/// folder RHEXIS_PLUGIN_DIR (environment variable) or else in `../lib` beside the program's folder.
+#pragma once
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace rhexis {
+
+/// Where the plugin `library` (a file name) has its place, there or not.
+inline std::filesystem::path plugin_path(const std::string& library) {
+  const char* folder = std::getenv("RHEXIS_PLUGIN_DIR");
+  if (folder != nullptr) return std::filesystem::path(folder) / library;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe");
+  return program.parent_path().parent_path() / "lib" / library;
+}
+
+/// Whether the plugin's file is in its place; costs nothing.
+inline bool has_plugin(const std::string& library) {
+  std::error_code ignored;
+  return std::filesystem::exists(plugin_path(library), ignored);
+}
+
+/// Opens the plugin with dlopen's `mode`; null where it cannot be, and `reason` says why.
+inline void* open_plugin(const std::string& library, int mode, std::string& reason) {
+  const auto path = plugin_path(library);
+  if (!has_plugin(library)) {
+    reason =
+        "not available: no " + path.string() + " (built only where ParaView's development files are found)";
+    return nullptr;
+  }
+  void* plugin = dlopen(path.c_str(), mode);
+  if (plugin == nullptr) reason = std::string("not available: ") + dlerror();
+  return plugin;
+}
+
+}  // namespace rhexis

@@ -1,0 +1,197 @@
+// The plugin librhexis_vtp.so: VTP files by VTK's own reader and writer.
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <exception>
+
+#include "network/vtp/interface.hpp"
+
+namespace rhexis::network::vtp {
+namespace {
+
+/// Takes what VTK would print: errors are kept, the rest is dropped.
+class SilentWindow : public vtkOutputWindow {
+ public:
+  vtkTypeMacro(SilentWindow, vtkOutputWindow) static SilentWindow* New() {
+    VTK_STANDARD_NEW_BODY(SilentWindow);
+  }
+  void DisplayText(const char*) override {}
+  void DisplayErrorText(const char* text) override {
+    if (errors.empty()) errors = last_sentence(text == nullptr ? "unknown error" : text);
+  }
+  void DisplayWarningText(const char*) override {}
+  void DisplayGenericWarningText(const char*) override {}
+  void DisplayDebugText(const char*) override {}
+
+  std::string errors;
+
+ private:
+  /// VTK begins with source file, line, class and address, up to "): "; the message follows.
+  static std::string last_sentence(std::string text) {
+    const auto begin = text.find("): ");
+    if (begin != std::string::npos) text.erase(0, begin + 3);
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+    for (char& c : text) {
+      if (c == '\n') c = ' ';
+    }
+    return text;
+  }
+};
+
+/// VTK's messages go to `window` as long as this lives.
+class Silence {
+ public:
+  Silence() : before_(vtkOutputWindow::GetInstance()), verbosity_(vtkLogger::GetCurrentVerbosityCutoff()) {
+    vtkOutputWindow::SetInstance(window);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~Silence() {
+    vtkLogger::SetStderrVerbosity(verbosity_);
+    vtkOutputWindow::SetInstance(before_);
+  }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+  vtkNew<SilentWindow> window;
+
+ private:
+  vtkSmartPointer<vtkOutputWindow> before_;
+  vtkLogger::Verbosity verbosity_;
+};
+
+std::vector<Array> arrays_of(vtkDataSetAttributes* attributes, vtkIdType first, vtkIdType count) {
+  std::vector<Array> arrays;
+  for (int a = 0; a < attributes->GetNumberOfArrays(); ++a) {
+    vtkDataArray* from = attributes->GetArray(a);  // null for text
+    if (from == nullptr || from->GetName() == nullptr) continue;
+    if (from->GetNumberOfTuples() < first + count) continue;
+    Array array{from->GetName(), from->GetNumberOfComponents(), false, {}};
+    array.values.reserve(static_cast<std::size_t>(count * array.components));
+    for (vtkIdType i = first; i < first + count; ++i) {
+      for (int c = 0; c < array.components; ++c) array.values.push_back(from->GetComponent(i, c));
+    }
+    arrays.push_back(std::move(array));
+  }
+  return arrays;
+}
+
+void copy_lines(vtkPolyData* data, Lines& lines) {
+  const vtkIdType points = data->GetNumberOfPoints();
+  lines.coordinates.resize(static_cast<std::size_t>(3 * points));
+  for (vtkIdType p = 0; p < points; ++p)
+    data->GetPoint(p, &lines.coordinates[3 * static_cast<std::size_t>(p)]);
+  lines.first_cell = data->GetNumberOfVerts();
+  vtkCellArray* cells = data->GetLines();
+  for (vtkIdType l = 0; l < cells->GetNumberOfCells(); ++l) {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCellAtId(l, size, ids);
+    lines.connectivity.insert(lines.connectivity.end(), ids, ids + size);
+    lines.offsets.push_back(static_cast<std::int64_t>(lines.connectivity.size()));
+  }
+  lines.point_arrays = arrays_of(data->GetPointData(), 0, points);
+  lines.cell_arrays = arrays_of(data->GetCellData(), lines.first_cell, cells->GetNumberOfCells());
+}
+
+/// Offsets that go astray would take VTK's own loops out of its memory.
+std::string check_offsets(vtkPolyData* data) {
+  vtkCellArray* cells = data->GetLines();
+  vtkDataArray* offsets = cells->GetOffsetsArray();
+  const auto end = static_cast<double>(cells->GetNumberOfConnectivityIds());
+  double before = 0;
+  for (vtkIdType i = 0; i < offsets->GetNumberOfTuples(); ++i) {
+    const double offset = offsets->GetComponent(i, 0);
+    if (offset < before || offset > end) return "the offsets of its lines do not fit their connectivity";
+    before = offset;
+  }
+  return {};
+}
+
+void add_arrays(vtkDataSetAttributes* attributes, const std::vector<Array>& arrays) {
+  for (const Array& array : arrays) {
+    vtkSmartPointer<vtkDataArray> to;
+    if (array.integer) {
+      to = vtkSmartPointer<vtkIntArray>::New();
+    } else {
+      to = vtkSmartPointer<vtkDoubleArray>::New();
+    }
+    to->SetName(array.name.c_str());
+    to->SetNumberOfComponents(array.components);
+    to->SetNumberOfTuples(static_cast<vtkIdType>(array.values.size()) / array.components);
+    for (std::size_t i = 0; i < array.values.size(); ++i) {
+      to->SetComponent(static_cast<vtkIdType>(i) / array.components, static_cast<int>(i) % array.components,
+                       array.values[i]);
+    }
+    attributes->AddArray(to);
+  }
+}
+
+vtkSmartPointer<vtkPolyData> poly_data_of(const Lines& lines) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  points->SetNumberOfPoints(static_cast<vtkIdType>(lines.points()));
+  for (std::size_t p = 0; p < lines.points(); ++p) {
+    points->SetPoint(static_cast<vtkIdType>(p), &lines.coordinates[3 * p]);
+  }
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t l = 0; l < lines.lines(); ++l) {
+    cells->InsertNextCell(static_cast<int>(lines.offsets[l + 1] - lines.offsets[l]));
+    for (auto i = lines.offsets[l]; i < lines.offsets[l + 1]; ++i) {
+      cells->InsertCellPoint(lines.connectivity[static_cast<std::size_t>(i)]);
+    }
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetLines(cells);
+  add_arrays(data->GetPointData(), lines.point_arrays);
+  add_arrays(data->GetCellData(), lines.cell_arrays);
+  return data;
+}
+
+}  // namespace
+
+extern "C" std::string rhexis_vtp_read(const std::string& path, Lines& lines) try {
+  const Silence silence;
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (!silence.window->errors.empty()) return silence.window->errors;
+  if (reader->GetErrorCode() != 0) return "VTK's error code " + std::to_string(reader->GetErrorCode());
+  vtkPolyData* data = reader->GetOutput();
+  if (data == nullptr) return "no PolyData";
+  auto error = check_offsets(data);
+  if (error.empty()) copy_lines(data, lines);
+  return error;
+} catch (const std::exception& error) {
+  return error.what();
+}
+
+extern "C" std::string rhexis_vtp_write(const std::string& path, const Lines& lines) try {
+  const Silence silence;
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetFileName(path.c_str());
+  writer->SetInputData(poly_data_of(lines));
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetHeaderTypeToUInt64();
+  const bool written = writer->Write() != 0 && writer->GetErrorCode() == 0;
+  if (!silence.window->errors.empty()) return silence.window->errors;
+  return written ? std::string() : "VTK's error code " + std::to_string(writer->GetErrorCode());
+} catch (const std::exception& error) {
+  return error.what();
+}
+
+}  // namespace rhexis::network::vtp

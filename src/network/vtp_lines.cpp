@@ -1,0 +1,158 @@
+#include "network/vtp_lines.hpp"
+
+#include <functional>
+#include <limits>
+
+#include "network/vtp_reading.hpp"
+
+namespace rhexis::network {
+namespace vtp {
+
+/// The points of a line, without repetitions one after the other.
+std::vector<std::size_t> Reading::distinct_points(std::size_t line) const {
+  std::vector<std::size_t> points;
+  for (auto i = lines_.offsets[line]; i < lines_.offsets[line + 1]; ++i) {
+    const auto p = static_cast<std::size_t>(lines_.connectivity[static_cast<std::size_t>(i)]);
+    if (points.empty() || same_[points.back()] != same_[p]) points.push_back(p);
+  }
+  return points;
+}
+
+void Reading::count_visits() {
+  visits_.assign(lines_.points(), 0);
+  for (std::size_t l = 0; l < lines_.lines(); ++l) {
+    for (const std::size_t p : distinct_points(l)) ++visits_[same_[p]];
+  }
+}
+
+double Reading::radius_at(std::size_t point) const {
+  return positive(point_radius_->values[point], point_radius_->name.c_str(), "point",
+                  static_cast<std::int64_t>(point));
+}
+
+bool Reading::constant_radius(std::span<const std::size_t> run) const {
+  if (cell_radius_ != nullptr) return true;
+  const double first = radius_at(run.front());
+  return std::all_of(run.begin(), run.end(),
+                     [&](std::size_t p) { return std::abs(radius_at(p) - first) <= 1e-12 * first; });
+}
+
+double Reading::span_length(std::span<const std::size_t> run) const {
+  double length = 0;
+  for (std::size_t i = 1; i < run.size(); ++i) {
+    const double *a = &lines_.coordinates[3 * run[i - 1]], *b = &lines_.coordinates[3 * run[i]];
+    length += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+  }
+  return length;
+}
+
+void Reading::add_line(std::size_t line) {
+  const auto points = distinct_points(line);
+  if (points.size() < 2) fail_at_cell(line, fmt::format("a line from point {} to itself", points.front()));
+  const std::size_t first_vessel = from_.size();
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const std::size_t p = same_[points[i]];
+    if (i + 1 < points.size() && visits_[p] == 1 && has_condition_[p] == 0) continue;
+    const std::span<const std::size_t> run(&points[begin], i - begin + 1);
+    if (constant_radius(run)) {
+      add_vessel(line, run);
+    } else {
+      for (std::size_t piece = 0; piece + 1 < run.size(); ++piece) add_vessel(line, run.subspan(piece, 2));
+    }
+    begin = i;
+  }
+  if (length_ == nullptr) return;
+  auto& length = result_.graph.length;
+  const double drawn = span_length(points), given = of_cell(*length_, line) * unit_;
+  for (std::size_t v = first_vessel; v < length.size(); ++v) {
+    const bool whole = length.size() == first_vessel + 1;
+    length[v] = whole ? given : given * (length[v] / (drawn * unit_));
+  }
+}
+
+void Reading::add_vessel(std::size_t line, std::span<const std::size_t> run) {
+  const std::size_t from = same_[run.front()], to = same_[run.back()];
+  if (from == to) fail_at_cell(line, fmt::format("a line from point {} to itself", from));
+  from_.push_back(from);
+  to_.push_back(to);
+  line_.push_back(line);
+  Graph& graph = result_.graph;
+  if (cell_radius_ != nullptr) {
+    graph.radius.push_back(of_cell(*cell_radius_, line) * radius_factor_ * unit_);
+  } else {
+    const double a = radius_at(run.front()), b = radius_at(run.back());
+    graph.radius.push_back((constant_radius(run) ? a : tapered_radius(a, b)) * radius_factor_ * unit_);
+  }
+  graph.length.push_back(positive(span_length(run) * unit_, "length", "cell", cell(line)));
+  if (wall_ != nullptr) graph.wall_thickness.push_back(of_cell(*wall_, line) * unit_);
+  if (kind_ != nullptr) graph.kind.push_back(static_cast<VesselKind>(whole_number(*kind_, line, 0, 2)));
+  if (generation_ != nullptr)
+    graph.generation.push_back(static_cast<std::int8_t>(whole_number(*generation_, line, -128, 127)));
+}
+
+double Reading::whole_number(const Array& array, std::size_t line, double low, double high) const {
+  const double value = array.values[line];
+  if (value >= low && value <= high && value == std::floor(value)) return value;
+  fail_at_cell(line, fmt::format("{} is {}, not one of {} .. {}", array.name, value, low, high));
+}
+
+/// Junctions are the ends of vessels, in the order of points.
+void Reading::number_junctions() {
+  constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+  Graph& graph = result_.graph;
+  std::vector<std::uint32_t> number(lines_.points(), none);
+  for (const auto& ends : {std::cref(from_), std::cref(to_)}) {
+    for (const std::size_t p : ends.get()) number[p] = 0;
+  }
+  bool renumbered = false;
+  for (std::size_t p = 0; p < number.size(); ++p) {
+    if (number[p] == none) continue;
+    renumbered = renumbered || p != graph.junctions;
+    if (graph.junctions == none) fail("too many junctions");
+    number[p] = static_cast<std::uint32_t>(graph.junctions++);
+    graph.x.push_back(lines_.coordinates[3 * p] * unit_);
+    graph.y.push_back(lines_.coordinates[3 * p + 1] * unit_);
+    graph.z.push_back(lines_.coordinates[3 * p + 2] * unit_);
+    graph.junction_name.push_back(std::to_string(p));
+  }
+  if (!renumbered) graph.junction_name.clear();
+  for (const std::size_t p : from_) graph.from.push_back(number[p]);
+  for (const std::size_t p : to_) graph.to.push_back(number[p]);
+  for (Condition condition : condition_) {
+    const std::uint32_t point = condition.junction;
+    condition.junction = number[point];
+    if (condition.junction == none) fail(fmt::format("point {}: a condition, but no line goes there", point));
+    result_.conditions.push_back(condition);
+  }
+}
+
+/// A vessel is named as its cell, with the number of the piece where the cell was cut.
+void Reading::name_vessels() {
+  bool renumbered = false;
+  std::vector<std::string>& names = result_.graph.vessel_name;
+  for (std::size_t v = 0; v < line_.size();) {
+    std::size_t end = v;
+    while (end < line_.size() && line_[end] == line_[v]) ++end;
+    renumbered = renumbered || end != v + 1 || cell(line_[v]) != static_cast<std::int64_t>(v);
+    const std::string name = std::to_string(cell(line_[v]));
+    for (std::size_t piece = 0; piece < end - v; ++piece)
+      names.push_back(end == v + 1 ? name : fmt::format("{}.{}", name, piece));
+    v = end;
+  }
+  if (!renumbered) names.clear();
+}
+
+}  // namespace vtp
+
+double tapered_radius(double a, double b) {
+  // Of the ratio, lest a small radius' sixth power underflow.
+  const double t = b / a;
+  return a * std::pow(3 * t * t * t / (1 + t + t * t), 0.25);
+}
+
+BoundedGraph network_of_lines(const vtp::Lines& lines, const std::string& file, double metres_per_unit) {
+  return vtp::Reading(lines, file, metres_per_unit).network();
+}
+
+}  // namespace rhexis::network

@@ -1,0 +1,93 @@
+#include "network/vtp_network.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "core/plugin.hpp"
+#include "network/vtp_lines.hpp"
+
+namespace rhexis::network {
+namespace {
+
+/// The plugin's function of that name; throws Error where there is no plugin.
+template <class Function, class Error>
+Function* plugin_function(const char* symbol, const std::filesystem::path& path, const char* doing) {
+  std::string reason;
+  // Local and lazy: nobody else's search for VTK's symbols is to change.
+  static void* plugin = nullptr;
+  if (plugin == nullptr) plugin = open_plugin(vtp::library, RTLD_LAZY | RTLD_LOCAL, reason);
+  auto* function = plugin == nullptr ? nullptr : reinterpret_cast<Function*>(dlsym(plugin, symbol));
+  if (function == nullptr) {
+    throw Error(fmt::format(
+        "{}: {} VTP files needs ParaView's VTK when Rhexis is built (Debian: paraview-dev); {}",
+        path.string(), doing, reason.empty() ? std::string("no ") + symbol + " in the plugin" : reason));
+  }
+  return function;
+}
+
+void add(std::vector<vtp::Array>& arrays, const std::string& name, std::span<const double> values,
+         std::size_t count, const std::filesystem::path& path) {
+  if (values.size() != count) {
+    throw RunError(
+        fmt::format("{}: array {} has {} values, not {}", path.string(), name, values.size(), count));
+  }
+  arrays.push_back({name, 1, false, {values.begin(), values.end()}});
+}
+
+vtp::Lines lines_of(const Graph& graph, const std::filesystem::path& path) {
+  if (graph.x.size() != graph.junctions || graph.y.size() != graph.junctions ||
+      graph.z.size() != graph.junctions) {
+    throw RunError(path.string() + ": a network whose junctions have no positions cannot be a VTP file");
+  }
+  vtp::Lines lines;
+  for (std::size_t j = 0; j < graph.junctions; ++j) {
+    lines.coordinates.insert(lines.coordinates.end(), {graph.x[j], graph.y[j], graph.z[j]});
+  }
+  for (std::size_t v = 0; v < graph.vessels(); ++v) {
+    lines.connectivity.insert(lines.connectivity.end(), {graph.from[v], graph.to[v]});
+    lines.offsets.push_back(static_cast<std::int64_t>(lines.connectivity.size()));
+  }
+  auto& arrays = lines.cell_arrays;
+  add(arrays, "radius", graph.radius, graph.vessels(), path);
+  add(arrays, "length", graph.length, graph.vessels(), path);
+  if (!graph.wall_thickness.empty())
+    add(arrays, "wall_thickness", graph.wall_thickness, graph.vessels(), path);
+  if (!graph.kind.empty()) {
+    arrays.push_back({"kind", 1, true, {}});
+    for (const VesselKind kind : graph.kind) arrays.back().values.push_back(static_cast<double>(kind));
+  }
+  if (!graph.generation.empty())
+    arrays.push_back({"generation", 1, true, {graph.generation.begin(), graph.generation.end()}});
+  return lines;
+}
+
+}  // namespace
+
+BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path.string() + ": no such file");
+  auto* read = plugin_function<vtp::Read, InputError>(vtp::read_symbol, path, "reading");
+  vtp::Lines lines;
+  const std::string error = read(path.string(), lines);
+  if (!error.empty()) throw InputError(path.string() + ": not a complete VTP file of PolyData: " + error);
+  return network_of_lines(lines, path.string(), metres_per_unit);
+}
+
+void write_vtp_network(const std::filesystem::path& path, const Graph& graph,
+                       std::span<const NamedArray> point_arrays, std::span<const NamedArray> cell_arrays) {
+  vtp::Lines lines = lines_of(graph, path);
+  for (const auto& [name, values] : point_arrays)
+    add(lines.point_arrays, name, values, graph.junctions, path);
+  for (const auto& [name, values] : cell_arrays) add(lines.cell_arrays, name, values, graph.vessels(), path);
+  auto* write = plugin_function<vtp::Write, RunError>(vtp::write_symbol, path, "writing");
+  const std::filesystem::path unfinished = path.string() + ".part";
+  std::string error = write(unfinished.string(), lines);
+  std::error_code failure;
+  if (error.empty()) std::filesystem::rename(unfinished, path, failure);
+  if (failure) error = failure.message();
+  if (error.empty()) return;
+  std::filesystem::remove(unfinished, failure);
+  throw RunError(path.string() + ": cannot be written: " + error);
+}
+
+}  // namespace rhexis::network

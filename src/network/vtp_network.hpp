@@ -1,0 +1,42 @@
+/// Networks as VTK's PolyData lines (.vtp), the files of ParaView and of centre line tools. VTK is in a
+/// plugin (librhexis_vtp.so, see core/plugin.hpp), which is opened by the first call.
+///
+/// A line becomes one vessel between its end points, its length the sum of its pieces, if its interior points
+/// are its own, carry no condition, and its radius is a cell array or a point array that is constant along it
+/// (to 1e-12). It is cut at points that it shares with another line (or with itself) and at those with a
+/// condition; where the radius varies between two cuts, every piece becomes a vessel (see `tapered_radius`).
+/// Points that coincide exactly are one. Junctions are the end points of vessels, in the order of the file's
+/// points. Where their numbers, or those of vessels, differ from the file's, their names are the file's
+/// numbers, from 0: "7" is point or cell 7, "7.2" the third vessel of cell 7.
+///
+/// Arrays, in the file's unit of length:
+///     radius, Radius, MaximumInscribedSphereRadius, diameter, Diameter    the first there is; of cells or
+///     points length, wall_thickness    of cells, optional; a length is shared out among a line's vessels
+///     kind (0 artery, 1 vein, 2 unknown), generation (-128 .. 127)    of cells, optional
+///     pressure_condition (Pa), flow_condition (m3/s, into the network)    of points, optional; nan: none
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "network/graph.hpp"
+
+namespace rhexis::network {
+
+/// Reads a network; throws InputError, naming the file and the cell or point at fault, also where there is
+/// no plugin.
+BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit);
+
+struct NamedArray {
+  std::string name;
+  std::span<const double> values;
+};
+
+/// Writes the graph in metres, each vessel a line of two points, with the arrays that `read_vtp_network`
+/// knows (but conditions, which can be among `point_arrays`) and those given: one value a junction, one a
+/// vessel. The file appears when it is complete. Throws RunError.
+void write_vtp_network(const std::filesystem::path& path, const Graph& graph,
+                       std::span<const NamedArray> point_arrays, std::span<const NamedArray> cell_arrays);
+
+}  // namespace rhexis::network

@@ -1,0 +1,93 @@
+/// The work behind vtp_lines.hpp: what the file has (vtp_points.cpp) and how it is cut (vtp_lines.cpp).
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "network/graph.hpp"
+#include "network/vtp/interface.hpp"
+
+namespace rhexis::network::vtp {
+
+class Reading {
+ public:
+  Reading(const Lines& lines, const std::string& file, double metres_per_unit)
+      : lines_(lines), file_(file), unit_(metres_per_unit) {}
+
+  BoundedGraph network() {
+    check_lines();
+    find_arrays();
+    merge_points();
+    find_conditions();
+    count_visits();
+    for (std::size_t l = 0; l < lines_.lines(); ++l) add_line(l);
+    number_junctions();
+    name_vessels();
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw InputError(file_ + ": " + what); }
+  [[noreturn]] void fail_at_cell(std::size_t line, const std::string& what) const {
+    fail(fmt::format("cell {}: {}", cell(line), what));
+  }
+  std::int64_t cell(std::size_t line) const { return lines_.first_cell + static_cast<std::int64_t>(line); }
+
+  double positive(double value, const char* name, const char* where, std::int64_t number) const {
+    if (!(value > 0) || !std::isfinite(value))
+      fail(fmt::format("{} {}: {} is {}, not positive and finite", where, number, name, value));
+    return value;
+  }
+  double of_cell(const Array& array, std::size_t line) const {
+    return positive(array.values[line], array.name.c_str(), "cell", cell(line));
+  }
+
+  const Array* find(const std::vector<Array>& arrays, const std::string& name) const {
+    const auto found =
+        std::find_if(arrays.begin(), arrays.end(), [&](const Array& a) { return a.name == name; });
+    if (found == arrays.end()) return nullptr;
+    if (found->components != 1)
+      fail(fmt::format("array {} has {} components, not 1", name, found->components));
+    return &*found;
+  }
+
+  void check_lines() const;
+  void find_arrays();
+  std::string array_list() const;
+  void merge_points();
+  void find_conditions();
+  void add_condition(const Array& array, Condition::Kind kind);
+  void count_visits();
+  std::vector<std::size_t> distinct_points(std::size_t line) const;
+  void add_line(std::size_t line);
+  double radius_at(std::size_t point) const;
+  bool constant_radius(std::span<const std::size_t> run) const;
+  double span_length(std::span<const std::size_t> run) const;
+  void add_vessel(std::size_t line, std::span<const std::size_t> run);
+  double whole_number(const Array& array, std::size_t line, double low, double high) const;
+  void number_junctions();
+  void name_vessels();
+
+  const Lines& lines_;
+  const std::string& file_;
+  const double unit_;
+  const Array *cell_radius_ = nullptr, *point_radius_ = nullptr;
+  double radius_factor_ = 1;  ///< 1/2 of a diameter
+  const Array *length_ = nullptr, *wall_ = nullptr, *kind_ = nullptr, *generation_ = nullptr;
+  std::vector<std::size_t> same_;       ///< [point] the first point at its place
+  std::vector<std::size_t> visits_;     ///< [point] by lines, of first points
+  std::vector<Condition> condition_;    ///< junctions still numbered as points
+  std::vector<char> has_condition_;     ///< [point]
+  std::vector<std::size_t> from_, to_;  ///< [vessel] as points
+  std::vector<std::size_t> line_;       ///< [vessel]
+  BoundedGraph result_;
+};
+
+}  // namespace rhexis::network::vtp

@@ -1,0 +1,131 @@
+// Networks as VTP: what ParaView and centre line tools write is read, what we write comes back.
+#include "network/vtp_network.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/error.hpp"
+#include "core/plugin.hpp"
+#include "support/trees.hpp"
+#include "unit/output/temporary_directory.hpp"
+
+namespace rhexis::network {
+namespace {
+
+class VtpNetwork : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!has_plugin("librhexis_vtp.so")) GTEST_SKIP() << "built without ParaView";
+  }
+  std::filesystem::path write(const std::string& text) {
+    std::ofstream(folder_ / "n.vtp", std::ios::binary) << text;
+    return folder_ / "n.vtp";
+  }
+  void refused(const std::string& text, const std::vector<std::string>& fragments) {
+    try {
+      read_vtp_network(write(text), 1);
+      ADD_FAILURE() << "accepted; expected: " << fragments.front();
+    } catch (const InputError& error) {
+      for (const std::string& fragment : fragments) {
+        EXPECT_NE(std::string(error.what()).find(fragment), std::string::npos)
+            << error.what() << "\nlacks " << fragment;
+      }
+    }
+  }
+  test::TemporaryDirectory folder_;
+};
+
+std::string array(const std::string& name, const std::string& values) {
+  return "<DataArray type=\"Float64\" Name=\"" + name + "\" format=\"ascii\">" + values + "</DataArray>";
+}
+
+/// Ascii PolyData of lines: coordinates, connectivity, offsets, point and cell arrays.
+std::string polydata(int points, int lines, const std::string& coordinates, const std::string& connectivity,
+                     const std::string& offsets, const std::string& point_data,
+                     const std::string& cell_data) {
+  return "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData><Piece "
+         "NumberOfPoints=\"" +
+         std::to_string(points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(lines) +
+         "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\"><PointData>" + point_data + "</PointData><CellData>" +
+         cell_data +
+         "</CellData><Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">" +
+         coordinates +
+         "</DataArray></Points><Lines><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" +
+         connectivity + "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offsets +
+         "</DataArray></Lines></Piece></PolyData></VTKFile>\n";
+}
+
+TEST_F(VtpNetwork, RoundTripOfATree) {
+  const Graph graph = TreePair(test::random_rules(6)).materialise();
+  std::vector<double> condition(graph.junctions, NAN);
+  condition[0] = 12600;
+  condition[64] = 600;
+  const NamedArray points[] = {{"pressure_condition", condition}};
+  write_vtp_network(folder_ / "t.vtp", graph, points, {});
+  const BoundedGraph read = read_vtp_network(folder_ / "t.vtp", 1);
+  const Graph& again = read.graph;
+  ASSERT_EQ(read.conditions.size(), 2u);
+  EXPECT_EQ(read.conditions[0].value, 12600);
+  EXPECT_EQ(read.conditions[0].junction, again.from[0]);
+  ASSERT_EQ(again.vessels(), graph.vessels());
+  EXPECT_EQ(again.junctions, graph.junctions);
+  EXPECT_EQ(again.radius, graph.radius);
+  EXPECT_EQ(again.length, graph.length);
+  EXPECT_EQ(again.kind, graph.kind);
+  EXPECT_EQ(again.generation, graph.generation);
+  for (std::size_t v = 0; v < graph.vessels(); ++v) {
+    EXPECT_EQ(again.x[again.from[v]], graph.x[graph.from[v]]);
+    EXPECT_EQ(again.y[again.to[v]], graph.y[graph.to[v]]);
+  }
+}
+
+TEST_F(VtpNetwork, PolylinesBecomeVesselsBetweenBranchings) {
+  // A line of three pieces (3, 4 and 12 long), and one that leaves its second point, which therefore cuts it.
+  const BoundedGraph n = read_vtp_network(write(polydata(5, 2, "0 0 0  3 0 0  3 4 0  3 4 12  9 0 0",
+                                                         "0 1 2 3  1 4", "4 6", "", array("radius", "1 2"))),
+                                          1e-3);
+  const Graph& g = n.graph;
+  ASSERT_EQ(g.vessels(), 3u);
+  EXPECT_EQ(g.junctions, 4u);
+  EXPECT_DOUBLE_EQ(g.length[0], 3e-3);
+  EXPECT_DOUBLE_EQ(g.length[1], 16e-3);
+  EXPECT_DOUBLE_EQ(g.radius[1], 1e-3);
+  EXPECT_DOUBLE_EQ(g.radius[2], 2e-3);
+}
+
+TEST_F(VtpNetwork, TaperedPieceHasTheResistanceOfItsTaper) {
+  const BoundedGraph n = read_vtp_network(
+      write(polydata(2, 1, "0 0 0  5 0 0", "0 1", "2", array("MaximumInscribedSphereRadius", "2 1"), "")), 1);
+  // 1/r^4 by its mean along the taper, by the midpoint rule.
+  double mean = 0;
+  constexpr int pieces = 100000;
+  for (int i = 0; i < pieces; ++i) mean += std::pow(2 - (i + 0.5) / pieces, -4) / pieces;
+  EXPECT_NEAR(n.graph.radius[0], std::pow(mean, -0.25), 1e-9);
+}
+
+TEST_F(VtpNetwork, CoincidentPointsAreOneJunction) {
+  const BoundedGraph n = read_vtp_network(
+      write(polydata(4, 2, "0 0 0  1 0 0  1 0 0  2 0 0", "0 1 2 3", "2 4", "", array("Diameter", "1 1"))), 1);
+  EXPECT_EQ(n.graph.junctions, 3u);
+  EXPECT_EQ(n.graph.to[0], n.graph.from[1]);
+  EXPECT_DOUBLE_EQ(n.graph.radius[0], 0.5);
+}
+
+TEST_F(VtpNetwork, Mistakes) {
+  const std::string two = "0 0 0  1 0 0";
+  refused("nonsense", {"n.vtp"});
+  refused("", {"n.vtp"});
+  const std::string good = polydata(2, 1, two, "0 1", "2", "", array("radius", "1"));
+  refused(good.substr(0, good.size() / 2), {"n.vtp"});
+  refused(polydata(2, 1, two, "0 1", "2", "", array("thickness", "1")), {"radius", "thickness"});
+  refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "-1")), {"cell 0", "radius", "-1"});
+  refused(polydata(2, 1, two, "0 0", "2", "", array("radius", "1")), {"cell 0"});
+  refused(polydata(2, 1, two, "0 7", "2", "", array("radius", "1")), {"n.vtp"});
+  refused(polydata(2, 0, two, "", "", "", ""), {"line"});
+  EXPECT_THROW(read_vtp_network(folder_ / "absent.vtp", 1), InputError);
+}
+
+}  // namespace
+}  // namespace rhexis::network
