@@ -148,7 +148,7 @@ class DistributedTier : public NetworkTier {
   QueriedVessel query(const std::string& name, const hemodynamics::GraphFlow& flow) const {
     std::int64_t local = -1;
     if (c_.network.source == "tree") {
-      const auto id = static_cast<std::int64_t>(network::TreePair(c_.tree).id_of(name));
+      const auto id = static_cast<std::int64_t>(network::TreePair::id_of(name, c_.tree.generations));
       const auto found = std::find(vessel_id_.begin(), vessel_id_.end(), id);
       if (found != vessel_id_.end()) local = found - vessel_id_.begin();
     } else {

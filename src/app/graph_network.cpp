@@ -27,7 +27,7 @@ using network::TreePair;
 std::string describe_source(const Configuration& c) {
   if (c.network.source == "file") return fmt::format("{}", fmt::join(c.network.files, ", "));
   return fmt::format("tree pair of {} generations, {} vessels in memory", c.tree.generations,
-                     grouped(static_cast<long long>(TreePair(c.tree).vessels())));
+                     grouped(static_cast<long long>(TreePair::vessels_of(c.tree.generations))));
 }
 
 std::vector<network::Condition> tree_conditions(const Configuration& c, const TreePair& tree,
@@ -151,7 +151,8 @@ hemodynamics::GraphSolverOptions solver_options(const Configuration& c) {
 }
 
 std::uint32_t find_vessel(const Configuration& c, const Graph& graph, const std::string& name) {
-  if (c.network.source == "tree") return static_cast<std::uint32_t>(TreePair(c.tree).id_of(name));
+  if (c.network.source == "tree")
+    return static_cast<std::uint32_t>(TreePair::id_of(name, c.tree.generations));
   if (!graph.vessel_name.empty()) {
     const auto found = std::find(graph.vessel_name.begin(), graph.vessel_name.end(), name);
     if (found != graph.vessel_name.end())

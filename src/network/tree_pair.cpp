@@ -53,14 +53,15 @@ std::string TreePair::path_of(std::uint64_t id) {
   return path;
 }
 
-std::uint64_t TreePair::id_of(std::string_view path) const {
+std::uint64_t TreePair::id_of(std::string_view path, int generations) {
   const auto refuse = [&](const std::string& why) -> std::uint64_t {
     throw InputError("there is no vessel '" + std::string(path) + "' in this tree: " + why);
   };
   std::uint64_t id = 0;
   const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), id);
   if (error == std::errc() && end == path.data() + path.size()) {
-    if (id >= vessels()) return refuse("ids run from 0 to " + std::to_string(vessels() - 1));
+    if (id >= vessels_of(generations))
+      return refuse("ids run from 0 to " + std::to_string(vessels_of(generations) - 1));
     return id;
   }
   const bool vein = path.starts_with(vein_prefix);
@@ -68,8 +69,8 @@ std::uint64_t TreePair::id_of(std::string_view path) const {
     return refuse("a vessel is a number or a path such as \"artery.\" (the root) or \"vein.011\"");
   }
   const std::string_view steps = path.substr(vein ? vein_prefix.size() : artery_prefix.size());
-  if (steps.size() >= static_cast<std::size_t>(generations())) {
-    return refuse("a path has at most " + std::to_string(generations() - 1) + " steps");
+  if (steps.size() >= static_cast<std::size_t>(generations)) {
+    return refuse("a path has at most " + std::to_string(generations - 1) + " steps");
   }
   std::uint64_t place = 1;
   for (const char step : steps) {

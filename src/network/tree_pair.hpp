@@ -40,7 +40,8 @@ class TreePair {
   const TreeRules& rules() const { return rules_; }
   int generations() const { return rules_.generations; }
   std::uint64_t places() const { return (std::uint64_t{1} << generations()) - 1; }  ///< of each tree
-  std::uint64_t vessels() const { return 2 * places(); }
+  std::uint64_t vessels() const { return vessels_of(generations()); }
+  static constexpr std::uint64_t vessels_of(int generations) { return (std::uint64_t{2} << generations) - 2; }
   std::uint64_t junctions() const { return 3 * (std::uint64_t{1} << (generations() - 1)); }
 
   static constexpr std::uint64_t id_of(std::uint64_t place, VesselKind kind) {
@@ -54,7 +55,8 @@ class TreePair {
 
   /// "artery.0110" or "vein.": the way from the root, 0 for the first daughter. The id of such a path, or of
   /// a plain number; throws InputError where there is no such vessel.
-  std::uint64_t id_of(std::string_view path) const;
+  static std::uint64_t id_of(std::string_view path, int generations);
+  std::uint64_t id_of(std::string_view path) const { return id_of(path, generations()); }
   static std::string path_of(std::uint64_t id);
 
   /// Share of the first daughter of `place` in its capacity.
