@@ -116,7 +116,7 @@ HWY_INLINE Real value_of(const network::IntervalTable& table, Real argument) {
   load_rows(rows, c);
   __m512d value = c[n - 1];
   for (int i = n - 2; i >= 0; --i) value = _mm512_fmadd_pd(value, u.raw, c[i]);
-  Real result(value);
+  Real result{value};
 #else
   const auto base = hn::ShiftLeft<3>(row);
   auto result = hn::GatherIndex(d, table.rows() + n - 1, base);

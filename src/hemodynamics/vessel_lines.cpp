@@ -80,7 +80,9 @@ VesselLines VesselLines::of_tree(const TreeFlow& flow, std::span<const network::
   };
   std::unordered_map<std::uint64_t, FarPoints> far;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto& [place, near, at] = places[i];
+    const std::uint64_t place = places[i].place;
+    const network::Point& near = places[i].near;
+    const network::TreePair::Place& at = places[i].at;
     const PlaceFlow& f = flows[i];
     const network::Point mirrored_end = TreePair::mirrored(at.end), mirrored_near = TreePair::mirrored(near);
     const bool last = 2 * place > tree.places();

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <fstream>
+
 #include "core/error.hpp"
 #include "core/plugin.hpp"
 #include "network/vtp_lines.hpp"
@@ -61,6 +64,15 @@ vtp::Lines lines_of(const Graph& graph, const std::filesystem::path& path) {
   return lines;
 }
 
+/// VTK itself does not see that the last block of a file was cut short.
+bool is_complete(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg(), tail = std::min<std::streamoff>(size, 256);
+  std::string text(static_cast<std::size_t>(tail), ' ');
+  file.seekg(size - tail).read(text.data(), tail);
+  return file && text.find("</VTKFile>") != std::string::npos;
+}
+
 }  // namespace
 
 BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit) {
@@ -68,7 +80,9 @@ BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_p
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path.string() + ": no such file");
   auto* read = plugin_function<vtp::Read, InputError>(vtp::read_symbol, path, "reading");
   vtp::Lines lines;
-  const std::string error = read(path.string(), lines);
+  std::string error = read(path.string(), lines);
+  if (error.find("too short") != std::string::npos) error += " (VTK cannot read nan or inf written as text)";
+  if (error.empty() && !is_complete(path)) error = "it does not end in </VTKFile>";
   if (!error.empty()) throw InputError(path.string() + ": not a complete VTP file of PolyData: " + error);
   return network_of_lines(lines, path.string(), metres_per_unit);
 }

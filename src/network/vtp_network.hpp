@@ -9,11 +9,12 @@
 /// points. Where their numbers, or those of vessels, differ from the file's, their names are the file's
 /// numbers, from 0: "7" is point or cell 7, "7.2" the third vessel of cell 7.
 ///
-/// Arrays, in the file's unit of length:
-///     radius, Radius, MaximumInscribedSphereRadius, diameter, Diameter    the first there is; of cells or
-///     points length, wall_thickness    of cells, optional; a length is shared out among a line's vessels
-///     kind (0 artery, 1 vein, 2 unknown), generation (-128 .. 127)    of cells, optional
-///     pressure_condition (Pa), flow_condition (m3/s, into the network)    of points, optional; nan: none
+/// Arrays, in the file's unit of length (and Pa, m3/s); all but the radius are optional:
+/// - radius, Radius, MaximumInscribedSphereRadius, diameter or Diameter, of cells or points: the first found
+/// - length, wall_thickness, of cells; a length is shared out among a line's vessels
+/// - kind (0 artery, 1 vein, 2 unknown), generation (-128 .. 127), of cells
+/// - pressure_condition, flow_condition (into the network), of points; nan: none (VTK reads nan from binary
+///   and appended data only, not from format="ascii")
 #pragma once
 
 #include <filesystem>
