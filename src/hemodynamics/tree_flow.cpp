@@ -55,11 +55,10 @@ void TreeFlow::rise_alike() {
   resistance_ = alike_below_[0];
 }
 
-void TreeFlow::rise_branches() {
-  top_ = std::make_unique<Subtree>(law_, top_depth_, true);
-  top_->grow(1, 1.0);
-  bottom_resistance_.resize((past_branch_ - first_branch_) << middle_depth_);
-  std::vector<double> resistance(branches(), 0.0);
+/// Calls work(thread, middle, bottom, branch) for this rank's branches, by all threads, each with subtrees of
+/// its own.
+template <class Work>
+void TreeFlow::for_each_branch(const Work& work) const {
   const int threads = parallel::thread_count();
   std::vector<std::unique_ptr<Subtree>> middle, bottom;
   for (int t = 0; t < threads; ++t) {
@@ -68,7 +67,17 @@ void TreeFlow::rise_branches() {
   }
   parallel::for_each_task(threads, past_branch_ - first_branch_, [&](int thread, std::size_t i) {
     const auto t = static_cast<std::size_t>(thread);
-    resistance[first_branch_ + i] = rise_branch(*middle[t], *bottom[t], first_branch_ + i);
+    work(thread, *middle[t], *bottom[t], first_branch_ + i);
+  });
+}
+
+void TreeFlow::rise_branches() {
+  top_ = std::make_unique<Subtree>(law_, top_depth_, true);
+  top_->grow(1, 1.0);
+  bottom_resistance_.resize((past_branch_ - first_branch_) << middle_depth_);
+  std::vector<double> resistance(branches(), 0.0);
+  for_each_branch([&](int, Subtree& middle, Subtree& bottom, std::size_t branch) {
+    resistance[branch] = rise_branch(middle, bottom, branch);
   });
   comm_.all_reduce(resistance,
                    parallel::Reduce::sum);  // exact: every branch has one owner, the others add zero
@@ -125,15 +134,8 @@ void TreeFlow::sweep(const std::function<VesselConsumer&(int thread)>& consumer_
     for (int l = 0; l < top_depth_; ++l) consumer_of(0).consume(top_->block(l, true));
     consumer_of(0).pause();
   }
-  const int threads = parallel::thread_count();
-  std::vector<std::unique_ptr<Subtree>> middle, bottom;
-  for (int t = 0; t < threads; ++t) {
-    middle.push_back(std::make_unique<Subtree>(law_, middle_depth_, true));
-    bottom.push_back(std::make_unique<Subtree>(law_, bottom_depth_, false));
-  }
-  parallel::for_each_task(threads, past_branch_ - first_branch_, [&](int thread, std::size_t i) {
-    const auto t = static_cast<std::size_t>(thread);
-    sweep_branch(*middle[t], *bottom[t], first_branch_ + i, consumer_of(thread));
+  for_each_branch([&](int thread, Subtree& middle, Subtree& bottom, std::size_t branch) {
+    sweep_branch(middle, bottom, branch, consumer_of(thread));
   });
 }
 

@@ -90,6 +90,8 @@ class TreeFlow {
   class Reader;
 
   void rise_alike();
+  template <class Work>
+  void for_each_branch(const Work& work) const;
   void rise_branches();
   double rise_branch(Subtree& middle, Subtree& bottom, std::size_t branch);
   void grow_middle(Subtree& middle, std::size_t branch) const;
