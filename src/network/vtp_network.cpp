@@ -80,7 +80,8 @@ BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_p
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path.string() + ": no such file");
   auto* read = plugin_function<vtp::Read, InputError>(vtp::read_symbol, path, "reading");
   vtp::Lines lines;
-  std::string error = read(path.string(), lines);
+  std::string error;
+  read(path.string(), lines, error);
   if (error.find("too short") != std::string::npos) error += " (VTK cannot read nan or inf written as text)";
   if (error.empty() && !is_complete(path)) error = "it does not end in </VTKFile>";
   if (!error.empty()) throw InputError(path.string() + ": not a complete VTP file of PolyData: " + error);
@@ -95,7 +96,8 @@ void write_vtp_network(const std::filesystem::path& path, const Graph& graph,
   for (const auto& [name, values] : cell_arrays) add(lines.cell_arrays, name, values, graph.vessels(), path);
   auto* write = plugin_function<vtp::Write, RunError>(vtp::write_symbol, path, "writing");
   const std::filesystem::path unfinished = path.string() + ".part";
-  std::string error = write(unfinished.string(), lines);
+  std::string error;
+  write(unfinished.string(), lines, error);
   std::error_code failure;
   if (error.empty()) std::filesystem::rename(unfinished, path, failure);
   if (failure) error = failure.message();

@@ -27,9 +27,9 @@ struct Lines {
   std::size_t lines() const { return offsets.size() - 1; }
 };
 
-/// Both return what went wrong, empty if nothing. They print nothing and throw nothing.
-using Read = std::string(const std::string& path, Lines& lines);
-using Write = std::string(const std::string& path, const Lines& lines);
+/// What went wrong is put into `problem`, which is empty before. They print nothing and throw nothing.
+using Read = void(const std::string& path, Lines& lines, std::string& problem);
+using Write = void(const std::string& path, const Lines& lines, std::string& problem);
 inline constexpr const char* library = "librhexis_vtp.so";
 inline constexpr const char* read_symbol = "rhexis_vtp_read";
 inline constexpr const char* write_symbol = "rhexis_vtp_write";

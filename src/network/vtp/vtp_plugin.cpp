@@ -163,23 +163,27 @@ vtkSmartPointer<vtkPolyData> poly_data_of(const Lines& lines) {
 
 }  // namespace
 
-extern "C" std::string rhexis_vtp_read(const std::string& path, Lines& lines) try {
+extern "C" void rhexis_vtp_read(const std::string& path, Lines& lines, std::string& problem) try {
   const Silence silence;
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  if (!silence.window->errors.empty()) return silence.window->errors;
-  if (reader->GetErrorCode() != 0) return "VTK's error code " + std::to_string(reader->GetErrorCode());
   vtkPolyData* data = reader->GetOutput();
-  if (data == nullptr) return "no PolyData";
-  auto error = check_offsets(data);
-  if (error.empty()) copy_lines(data, lines);
-  return error;
+  if (!silence.window->errors.empty()) {
+    problem = silence.window->errors;
+  } else if (reader->GetErrorCode() != 0) {
+    problem = "VTK's error code " + std::to_string(reader->GetErrorCode());
+  } else if (data == nullptr) {
+    problem = "no PolyData";
+  } else {
+    problem = check_offsets(data);
+    if (problem.empty()) copy_lines(data, lines);
+  }
 } catch (const std::exception& error) {
-  return error.what();
+  problem = error.what();
 }
 
-extern "C" std::string rhexis_vtp_write(const std::string& path, const Lines& lines) try {
+extern "C" void rhexis_vtp_write(const std::string& path, const Lines& lines, std::string& problem) try {
   const Silence silence;
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetFileName(path.c_str());
@@ -188,10 +192,13 @@ extern "C" std::string rhexis_vtp_write(const std::string& path, const Lines& li
   writer->EncodeAppendedDataOff();
   writer->SetHeaderTypeToUInt64();
   const bool written = writer->Write() != 0 && writer->GetErrorCode() == 0;
-  if (!silence.window->errors.empty()) return silence.window->errors;
-  return written ? std::string() : "VTK's error code " + std::to_string(writer->GetErrorCode());
+  if (!silence.window->errors.empty()) {
+    problem = silence.window->errors;
+  } else if (!written) {
+    problem = "VTK's error code " + std::to_string(writer->GetErrorCode());
+  }
 } catch (const std::exception& error) {
-  return error.what();
+  problem = error.what();
 }
 
 }  // namespace rhexis::network::vtp
