@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "hemodynamics/distributed_flow.hpp"
 #include "network/tree_pair.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -27,7 +27,7 @@ class DistributedTier : public NetworkTier {
   }
 
   void prepare() override {
-    output::together<InputError>(comm_, [&] {
+    parallel::together<InputError>(comm_, [&] {
       if (c_.network.source == "tree") {
         take_tree_part();
       } else {
@@ -79,7 +79,8 @@ class DistributedTier : public NetworkTier {
   /// Every rank reads the files, and keeps an even share of the vessels.
   void take_slice_of_file() {
     const network::BoundedGraph whole = make_graph_network(c_, mechanics_.hydrostatic);
-    hemodynamics::check_flow_problem(whole.graph, whole.conditions);
+    hemodynamics::check_flow_problem(whole.graph, whole.conditions, solver_options(c_));
+    for (const std::string& name : c_.network.query) find_vessel(c_, whole.graph, name);
     const auto share = [&](int r) {
       return whole.graph.vessels() * static_cast<std::size_t>(r) / static_cast<std::size_t>(comm_.size());
     };
@@ -156,7 +157,6 @@ class DistributedTier : public NetworkTier {
       const auto found = std::find(names.begin(), names.end(), name);
       if (found != names.end()) local = found - names.begin();
     }
-    if (total(local >= 0) == 0) throw RunError("network.query: there is no vessel '" + name + "'");
     QueriedVessel q;
     double values[9] = {};
     if (local >= 0) {

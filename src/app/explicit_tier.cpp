@@ -11,7 +11,7 @@
 #include "core/format.hpp"
 #include "hemodynamics/graph_flow.hpp"
 #include "hemodynamics/haematocrit.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -29,11 +29,12 @@ class ExplicitTier : public NetworkTier {
   std::string description() const override { return describe_source(c_); }
 
   void prepare() override {
-    output::on_root<InputError>(comm_, [&] {
+    parallel::on_root<InputError>(comm_, [&] {
       const Stopwatch watch(making_);
       network_ = make_graph_network(c_, mechanics_.hydrostatic);
       // A tree is connected by its making.
-      if (c_.network.source == "file") hemodynamics::check_flow_problem(network_.graph, network_.conditions);
+      if (c_.network.source == "file")
+        hemodynamics::check_flow_problem(network_.graph, network_.conditions, solver_options(c_));
       for (const std::string& name : c_.network.query)
         queried_.push_back(find_vessel(c_, network_.graph, name));
     });
@@ -41,7 +42,7 @@ class ExplicitTier : public NetworkTier {
 
   NetworkSolution solve(const Say& say) override {
     NetworkSolution s;
-    output::on_root<RunError>(comm_, [&] { solve_here(s, say); });
+    parallel::on_root<RunError>(comm_, [&] { solve_here(s, say); });
     return s;
   }
 

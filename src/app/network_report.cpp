@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "app/network_run.hpp"
-#include "app/version.hpp"
 #include "core/format.hpp"
 
 namespace rhexis::app {
@@ -51,10 +50,7 @@ nlohmann::ordered_json to_json(const QueriedVessel& q) {
 
 void NetworkRun::say_header() {
   const hemodynamics::Parameters& h = c_.hemodynamics;
-  console_.line(
-      fmt::format("Rhexis {} ({}): {}", version(), commit(), c_.title.empty() ? c_.file : c_.title));
-  for (const std::string& warning : c_.warnings) console_.warning(warning);
-  console_.item("input", c_.file);
+  say_input();
   console_.item("network", tier_->description());
   console_.item("blood",
                 h.viscosity_law == "constant"
@@ -62,15 +58,11 @@ void NetworkRun::say_header() {
                     : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", h.viscosity_law,
                                   quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
                                   h.phase_separation ? ", dividing at bifurcations" : ""));
-  console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
-                                        parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
-  console_.item("pictures", renderer_);
-  console_.item("results", options_.directory.string());
+  say_surroundings(renderer_);
 }
 
 void NetworkRun::say_summary() {
   const NetworkSolution& s = solution_;
-  const output::Performance p = performance();
   console_.line("Done.");
   for (const std::string& warning : s.warnings) console_.warning(warning);
   if (s.statistics) {
@@ -110,12 +102,7 @@ void NetworkRun::say_summary() {
                               mmhg(q.pressure_from), mmhg(q.pressure_to)));
   }
   console_.item("shown", fmt::format("{} of {} vessels", grouped(s.shown), grouped(s.vessels)));
-  console_.item("time spent",
-                fmt::format("{} in all: {} solving, {} pictures, {} output", duration(*p.wall_s),
-                            duration(*p.solve_s), duration(*p.insitu_s), duration(*p.output_s)));
-  console_.item("memory",
-                fmt::format("{:.0f} MB over all ranks", static_cast<double>(*p.peak_rss_bytes) / 1e6));
-  console_.item("results", options_.directory.string());
+  say_cost(performance());
 }
 
 }  // namespace rhexis::app

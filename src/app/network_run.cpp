@@ -9,18 +9,13 @@
 #include "core/error.hpp"
 #include "network/vtp_network.hpp"
 #include "output/atomic_file.hpp"
-#include "output/directory.hpp"
 #include "output/line_series.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::app {
 
 NetworkRun::NetworkRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
-    : c_(std::move(configuration)),
-      options_(std::move(options)),
-      comm_(comm),
-      console_(comm.is_root(), options_.quiet),
-      started_(seconds_now()) {
+    : RunBase(std::move(configuration), std::move(options), comm) {
   if (!options_.restart.empty()) throw InputError("--restart is for scenes with scene.model = \"vessel\"");
 }
 
@@ -28,7 +23,8 @@ Ending NetworkRun::run() {
   tier_ = make_tier(c_, comm_);
   tier_->prepare();
   try {
-    open_results();
+    open_directory(output::EarlierResults::remove);
+    open_record();
     {
       const Stopwatch watch(spent_.insitu);
       Pictures pictures = start_pictures(c_.insitu, options_.directory, comm_);
@@ -52,21 +48,6 @@ Ending NetworkRun::run() {
   return Ending::completed;
 }
 
-/// Tells run.json why the run failed; a disk that is full for this too must not hide the reason.
-void NetworkRun::note_failure(const std::string& reason) {
-  if (!record_) return;
-  try {
-    record_->fail(reason, results_, performance());
-  } catch (const RunError& also) {
-    console_.warning(also.what());
-  }
-}
-
-void NetworkRun::open_results() {
-  output::prepare_directory(options_.directory, output::EarlierResults::remove, comm_);
-  record_.emplace(options_.directory / "run.json", version(), commit(), c_.record, comm_);
-}
-
 void NetworkRun::solve() {
   const Stopwatch watch(spent_.solve);
   solution_ = tier_->solve([&](const std::string& text) { console_.line(text); });
@@ -86,7 +67,7 @@ void NetworkRun::solve() {
 }
 
 void NetworkRun::write_tables() {
-  output::on_root<RunError>(comm_, [&] {
+  parallel::on_root<RunError>(comm_, [&] {
     if (solution_.statistics) {
       output::write_atomically(options_.directory / "generations.csv",
                                generation_table(*solution_.statistics));
@@ -113,7 +94,7 @@ void NetworkRun::write_lines() {
   plan.steps = {0};
   plan.precision = output::Precision::double_precision;
   output::LineSeries(plan, solution_.lines, comm_).write(solution_.lines);
-  if (c_.network.vtp) output::on_root<RunError>(comm_, [&] { write_vtp(); });
+  if (c_.network.vtp) parallel::on_root<RunError>(comm_, [&] { write_vtp(); });
 }
 
 /// The first rank's lines, which are all but of a distributed network.
@@ -156,19 +137,6 @@ void NetworkRun::draw() {
   const Stopwatch watch(spent_.insitu);
   pipeline_->process({.particles = nullptr, .network = &solution_.lines});
   pipeline_->finish();
-}
-
-output::Performance NetworkRun::performance() const {
-  output::Performance p;
-  p.ranks = comm_.size();
-  p.threads = parallel::thread_count();
-  p.wall_s = seconds_now() - started_;
-  p.solve_s = spent_.solve;
-  p.insitu_s = spent_.insitu;
-  p.output_s = spent_.output;
-  p.peak_rss_bytes = comm_.all_reduce(output::peak_resident_bytes(), parallel::Reduce::sum);
-  p.node_hours = *p.wall_s * comm_.node_count() / 3600;
-  return p;
 }
 
 }  // namespace rhexis::app

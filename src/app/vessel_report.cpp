@@ -1,36 +1,14 @@
 // What a vessel's run says of itself: at its start, at its end, and in run.json.
 #include <fmt/format.h>
 
-#include "app/stopwatch.hpp"
-#include "app/version.hpp"
 #include "app/vessel_run.hpp"
 #include "core/format.hpp"
-#include "peridynamics/bond_kernel.hpp"
 
 namespace rhexis::app {
 
-output::Performance VesselRun::performance() const {
-  output::Performance p;
-  p.ranks = comm_.size();
-  p.threads = parallel::thread_count();
-  p.wall_s = seconds_now() - started_;
-  p.solve_s = spent_.solve;
-  p.insitu_s = spent_.insitu;
-  p.output_s = spent_.output;
-  p.bond_evaluations = comm_.all_reduce(body_->bond_evaluations(), parallel::Reduce::sum);
-  if (spent_.solve > 0) p.bond_evaluations_per_s = static_cast<double>(*p.bond_evaluations) / spent_.solve;
-  p.flop = static_cast<double>(*p.bond_evaluations) * peridynamics::flop_per_bond;
-  p.peak_rss_bytes = comm_.all_reduce(output::peak_resident_bytes(), parallel::Reduce::sum);
-  p.node_hours = *p.wall_s * comm_.node_count() / 3600;
-  return p;
-}
-
 void VesselRun::say_header() {
   const peridynamics::Parameters& v = c_.vessel;
-  console_.line(
-      fmt::format("Rhexis {} ({}): {}", version(), commit(), c_.title.empty() ? c_.file : c_.title));
-  for (const std::string& warning : c_.warnings) console_.warning(warning);
-  console_.item("input", c_.file);
+  say_input();
   console_.item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
                                       quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
                                       quantity(v.length, "m"), v.ends));
@@ -47,10 +25,7 @@ void VesselRun::say_header() {
                 fmt::format("{} ({}), layer {}, venting {}",
                             quantity(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
                             v.schedule, v.layer, v.venting));
-  console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
-                                        parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
-  console_.item("pictures", renderer_);
-  console_.item("results", options_.directory.string());
+  say_surroundings(renderer_);
 }
 
 void VesselRun::say_summary() {
@@ -77,12 +52,7 @@ void VesselRun::say_summary() {
   console_.item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s",
                                      *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
                                      p.bond_evaluations_per_s.value_or(0)));
-  console_.item("time spent",
-                fmt::format("{} in all: {} solving, {} pictures, {} output", duration(*p.wall_s),
-                            duration(*p.solve_s), duration(*p.insitu_s), duration(*p.output_s)));
-  console_.item("memory",
-                fmt::format("{:.0f} MB over all ranks", static_cast<double>(*p.peak_rss_bytes) / 1e6));
-  console_.item("results", options_.directory.string());
+  say_cost(p);
 }
 
 }  // namespace rhexis::app

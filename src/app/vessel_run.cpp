@@ -12,7 +12,6 @@
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "output/directory.hpp"
 #include "peridynamics/schedule.hpp"
 
 namespace rhexis::app {
@@ -27,11 +26,7 @@ enum Flag : std::uint64_t { interrupted = 1, broken = 2, ruptured = 4, unstable 
 }  // namespace
 
 VesselRun::VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
-    : c_(std::move(configuration)),
-      options_(std::move(options)),
-      comm_(comm),
-      console_(comm.is_root(), options_.quiet),
-      started_(seconds_now()) {}
+    : RunBase(std::move(configuration), std::move(options), comm) {}
 
 VesselRun::~VesselRun() = default;
 
@@ -61,16 +56,6 @@ Ending VesselRun::run() {
   return interrupted_ ? Ending::interrupted : Ending::completed;
 }
 
-/// Tells run.json why the run failed; a disk that is full for this too must not hide the reason.
-void VesselRun::note_failure(const std::string& reason) {
-  if (!record_) return;
-  try {
-    record_->fail(reason, results_, performance());
-  } catch (const RunError& also) {
-    console_.warning(also.what());
-  }
-}
-
 void VesselRun::build() {
   lattice_ = peridynamics::make_lattice(c_.vessel);
   peridynamics::BondFamilies families = peridynamics::make_families(lattice_);
@@ -88,15 +73,14 @@ void VesselRun::build() {
 
 void VesselRun::open_results() {
   const bool restarts = !options_.restart.empty();
-  output::prepare_directory(options_.directory,
-                            restarts ? output::EarlierResults::keep : output::EarlierResults::remove, comm_);
+  open_directory(restarts ? output::EarlierResults::keep : output::EarlierResults::remove);
   if (restarts) {
     // The first moment is observed anew, so the row that the earlier run may have left of it goes.
     history_.emplace(options_.directory / "history.csv", comm_, first_step_ - 1);
   } else {
     history_.emplace(options_.directory / "history.csv", comm_);
   }
-  record_.emplace(options_.directory / "run.json", version(), commit(), c_.record, comm_);
+  open_record();
   if (c_.output.fields.empty()) return;
   output::PointSeriesPlan plan;
   plan.directory = options_.directory;
@@ -223,6 +207,7 @@ void VesselRun::time_loop() {
     vent(step_);
     const peridynamics::StepEvents events =
         body_->advance(pressure_at(step_) * vent_now_, pressure_at(step_ + 1) * vent_next_);
+    bond_evaluations_ = body_->bond_evaluations();
     std::uint64_t flags = 0;
     if (InterruptGuard::requested()) flags |= Flag::interrupted;
     if (events.broken > 0) flags |= Flag::broken;

@@ -4,21 +4,17 @@
 #include <memory>
 #include <optional>
 
-#include "app/configuration.hpp"
-#include "app/console.hpp"
-#include "app/run_options.hpp"
+#include "app/run_base.hpp"
 #include "insitu/pipeline.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
-#include "output/run_record.hpp"
-#include "parallel/communicator.hpp"
 #include "peridynamics/body.hpp"
 #include "peridynamics/opening.hpp"
 #include "peridynamics/particle_source.hpp"
 
 namespace rhexis::app {
 
-class VesselRun {
+class VesselRun : private RunBase {
  public:
   VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm);
   ~VesselRun();
@@ -28,12 +24,7 @@ class VesselRun {
   Ending run();
 
  private:
-  struct Spent {
-    double solve = 0, output = 0, insitu = 0;  ///< s
-  };
-
   std::string unstable_message(long step, const std::string& sign) const;
-  void note_failure(const std::string& reason);
   void build();
   void open_results();
   void start_insitu();
@@ -49,12 +40,7 @@ class VesselRun {
   void say_summary();
   double pressure_at(long step) const;
   double time_at(long step) const { return static_cast<double>(step) * c_.time_step; }
-  output::Performance performance() const;
 
-  Configuration c_;
-  RunOptions options_;
-  parallel::Communicator comm_;
-  Console console_;
   peridynamics::Lattice lattice_;
   std::unique_ptr<peridynamics::Body> body_;
   std::unique_ptr<peridynamics::ParticleSource> source_;
@@ -63,16 +49,12 @@ class VesselRun {
   std::string renderer_;  ///< who draws, or why nobody does
   std::optional<output::PointSeries> series_;
   std::optional<output::History> history_;
-  std::optional<output::RunRecord> record_;
-  output::Results results_;
 
   long first_step_ = 0, step_ = 0;
   bool interrupted_ = false;
   double open_area_ = 0;                 ///< m2
   double vent_now_ = 1, vent_next_ = 1;  ///< shares of the scheduled pressure, at t_n and t_{n+1}
   double least_vent_ = 1;
-  Spent spent_;
-  double started_ = 0;  ///< s, of the clock
 };
 
 }  // namespace rhexis::app

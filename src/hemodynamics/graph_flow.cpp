@@ -125,7 +125,8 @@ std::string_view name_of(GraphSolver solver) {
   return "";
 }
 
-void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions) {
+void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions,
+                        const GraphSolverOptions& options) {
   const std::vector<bool> connected = junctions_with_vessels(graph);
   const Boundary boundary = checked_boundary(graph, conditions, connected);
   // Every junction points towards the representative of its component, the one of the lowest number.
@@ -145,6 +146,13 @@ void check_flow_problem(const network::Graph& graph, std::span<const network::Co
   for (std::uint32_t j = 0; j < graph.junctions; ++j) {
     if (connected[j] && !held[representative(j)]) throw_floating(name_of_first(graph, j));
   }
+  if (options.solver != GraphSolver::elimination) return;
+  // What is left does not depend on the conductances.
+  Reduction reduction = reducible(graph, std::vector<double>(graph.vessels(), 1.0), boundary, {});
+  reduction.reduce();
+  choose_solver(options, core_of(reduction, graph.junctions + boundary.ghosts.size(),
+                                 all_fixed(graph, boundary), sum_of_inflows(boundary))
+                             .unknowns);
 }
 
 GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,

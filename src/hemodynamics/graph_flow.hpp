@@ -34,8 +34,10 @@ struct GraphFlow {
   std::int64_t core_junctions = 0;              ///< unknowns left after reduction
 };
 
-/// Throws what `solve_flow` would throw of conditions and components, without solving anything.
-void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions);
+/// Throws the InputError that `solve_flow` would throw of conditions, components and solver, without solving
+/// anything.
+void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions,
+                        const GraphSolverOptions& options = {});
 
 /// Pressures and flows for conductances [V] in m3/(s Pa). `conductance` is consumed (its memory is reused).
 /// 1. Series, parallel and dead-end vessels are removed exactly (reduction.hpp); trees and series-parallel

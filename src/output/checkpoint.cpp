@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "output/disk_space.hpp"
 #include "output/hdf5_file.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::output {
 namespace {
@@ -31,20 +31,20 @@ Slab slab_of(const WordBlock& block) {
 
 void read_array(const Hdf5File& file, const parallel::Communicator& communicator, const std::string& name,
                 hid_t memory_type, const Slab& slab, void* values) {
-  together<InputError>(communicator, [&] {
+  parallel::together<InputError>(communicator, [&] {
     const std::vector<hsize_t> stored = file.shape(name), expected = slab.extent();
     if (stored == expected) return;
     throw InputError(fmt::format("{}: '{}' holds {} values, but this run has {}", file.path().string(), name,
                                  fmt::join(stored, " x "), fmt::join(expected, " x ")));
   });
-  together<InputError>(communicator, [&] { file.read(name, memory_type, slab, values); });
+  parallel::together<InputError>(communicator, [&] { file.read(name, memory_type, slab, values); });
 }
 
 }  // namespace
 
 CheckpointWriter::CheckpointWriter(std::filesystem::path path, parallel::Communicator communicator)
     : path_(std::move(path)), temporary_(path_.string() + ".part"), communicator_(communicator) {
-  on_root<RunError>(communicator_, [&] {
+  parallel::on_root<RunError>(communicator_, [&] {
     change_structure(temporary_, Hdf5File::Mode::create, 0,
                      [](Hdf5File& file) { file.write_text("/", format_attribute, format_text); });
   });
@@ -80,12 +80,13 @@ void CheckpointWriter::write(const std::string& name, const std::string& text) {
 }
 
 void CheckpointWriter::close() {
-  together<RunError>(communicator_, [&] { sync_to_disk(temporary_); });
-  on_root<RunError>(communicator_, [&] { std::filesystem::rename(temporary_, path_); });
+  parallel::together<RunError>(communicator_, [&] { sync_to_disk(temporary_); });
+  parallel::on_root<RunError>(communicator_, [&] { std::filesystem::rename(temporary_, path_); });
 }
 
 void CheckpointWriter::lay_out(const std::function<void(Hdf5File&)>& change) {
-  on_root<RunError>(communicator_, [&] { change_structure(temporary_, Hdf5File::Mode::modify, 1, change); });
+  parallel::on_root<RunError>(communicator_,
+                              [&] { change_structure(temporary_, Hdf5File::Mode::modify, 1, change); });
 }
 
 void CheckpointWriter::write_array(const std::string& name, std::int64_t file_type, std::int64_t memory_type,
@@ -96,23 +97,23 @@ void CheckpointWriter::write_array(const std::string& name, std::int64_t file_ty
     reserve_space(temporary_, {&bytes, 1});
   });
   std::unique_ptr<Hdf5File> file;
-  together<RunError>(communicator_, [&] {
+  parallel::together<RunError>(communicator_, [&] {
     file = std::make_unique<Hdf5File>(temporary_, Hdf5File::Mode::modify, communicator_);
   });
-  together<RunError>(communicator_, [&] { file->write(name, memory_type, slab, values); });
+  parallel::together<RunError>(communicator_, [&] { file->write(name, memory_type, slab, values); });
 }
 
 CheckpointReader::CheckpointReader(std::filesystem::path path, parallel::Communicator communicator)
     : communicator_(communicator) {
-  on_root<InputError>(communicator_, [&] {
+  parallel::on_root<InputError>(communicator_, [&] {
     const std::string why_not = !std::filesystem::exists(path)            ? "there is no such file"
                                 : !std::filesystem::is_regular_file(path) ? "it is not a file"
                                                                           : "";
     if (!why_not.empty()) throw InputError(fmt::format("{}: cannot open: {}", path.string(), why_not));
   });
-  together<InputError>(
+  parallel::together<InputError>(
       communicator_, [&] { file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read, communicator_); });
-  together<InputError>(communicator_, [&] {
+  parallel::together<InputError>(communicator_, [&] {
     if (file_->has_attribute("/", format_attribute) && file_->read_text("/", format_attribute) == format_text)
       return;
     throw InputError(fmt::format("{}: not a checkpoint of this version of Rhexis", path.string()));
@@ -133,15 +134,17 @@ void CheckpointReader::read(const std::string& name, const WordBlock& block,
 }
 
 void CheckpointReader::read(const std::string& name, std::int64_t& value) {
-  together<InputError>(communicator_, [&] { file_->read_attribute("/", name, H5T_NATIVE_INT64, &value); });
+  parallel::together<InputError>(communicator_,
+                                 [&] { file_->read_attribute("/", name, H5T_NATIVE_INT64, &value); });
 }
 
 void CheckpointReader::read(const std::string& name, double& value) {
-  together<InputError>(communicator_, [&] { file_->read_attribute("/", name, H5T_NATIVE_DOUBLE, &value); });
+  parallel::together<InputError>(communicator_,
+                                 [&] { file_->read_attribute("/", name, H5T_NATIVE_DOUBLE, &value); });
 }
 
 void CheckpointReader::read(const std::string& name, std::string& text) {
-  together<InputError>(communicator_, [&] { text = file_->read_text("/", name); });
+  parallel::together<InputError>(communicator_, [&] { text = file_->read_text("/", name); });
 }
 
 }  // namespace rhexis::output

@@ -12,7 +12,7 @@
 
 #include "core/error.hpp"
 #include "output/numbered_picture.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::output {
 namespace {
@@ -89,7 +89,7 @@ void remove_files(const fs::path& directory, Predicate is_ours) {
 
 void prepare_directory(const fs::path& directory, EarlierResults earlier,
                        const parallel::Communicator& communicator) {
-  on_root<InputError>(communicator, [&] {
+  parallel::on_root<InputError>(communicator, [&] {
     NewDirectories created;
     for (const fs::path& path : {directory, directory / "images", directory / "checkpoints"}) {
       created.make(path);

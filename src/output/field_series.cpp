@@ -9,7 +9,7 @@
 #include "output/atomic_file.hpp"
 #include "output/disk_space.hpp"
 #include "output/hdf5_file.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::output {
 namespace {
@@ -57,13 +57,13 @@ FieldSeries::FieldSeries(const SeriesPlan& plan, const SeriesLayout& layout, std
   for (const FixedDataset& dataset : fixed) fixed_[dataset.name] = dataset;
   for (const long step : plan.steps) planned_places_[step] = fmt::format("{:06}", step);
   const std::filesystem::path path = plan.directory / hdf5_name_;
-  on_root<RunError>(communicator_, [&] {
+  parallel::on_root<RunError>(communicator_, [&] {
     const std::size_t datasets = fields_.size() * (planned_places_.size() + 1) + fixed.size();
     change_structure(path, Hdf5File::Mode::create, datasets,
                      [&](Hdf5File& file) { lay_out(file, plan, fixed); });
     sync_to_disk(path);
   });
-  together<RunError>(communicator_, [&] {
+  parallel::together<RunError>(communicator_, [&] {
     file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::modify, communicator_);
   });
   std::vector<std::string> names;
@@ -116,9 +116,9 @@ void FieldSeries::write_values(const std::string& dataset, int components, Centr
                                const std::function<FieldView()>& view) {
   const hid_t type = precision_ == Precision::single_precision ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE;
   const void* values = nullptr;
-  together<RunError>(communicator_, [&] { values = packed(view(), components, centring); });
-  together<RunError>(communicator_,
-                     [&] { file_->write(dataset, type, slab_of(layout_.of(centring), components), values); });
+  parallel::together<RunError>(communicator_, [&] { values = packed(view(), components, centring); });
+  parallel::together<RunError>(
+      communicator_, [&] { file_->write(dataset, type, slab_of(layout_.of(centring), components), values); });
 }
 
 void FieldSeries::write_fixed(const std::string& name, const FieldView& values) {
@@ -128,7 +128,7 @@ void FieldSeries::write_fixed(const std::string& name, const FieldView& values) 
 
 void FieldSeries::write_fixed(const std::string& name, const std::vector<std::int64_t>& values) {
   const FixedDataset& dataset = fixed_.at(name);
-  together<RunError>(communicator_, [&] {
+  parallel::together<RunError>(communicator_, [&] {
     file_->write(name, H5T_NATIVE_INT64, slab_of(layout_.of(dataset.centring), dataset.components),
                  values.data());
   });
@@ -147,7 +147,7 @@ void FieldSeries::write(long step, const std::function<FieldView(const StoredFie
     write_values(dataset_name(field.name, place), field.components, field.centring,
                  [&] { return view_of(field); });
   }
-  together<RunError>(communicator_, [&] { sync_to_disk(file_->path()); });
+  parallel::together<RunError>(communicator_, [&] { sync_to_disk(file_->path()); });
 
   listed_.push_back({place, grid_of(place)});
   write_xdmf();
@@ -155,10 +155,10 @@ void FieldSeries::write(long step, const std::function<FieldView(const StoredFie
 
 void FieldSeries::reserve(const std::vector<std::string>& datasets) {
   std::vector<ByteRange> ranges;
-  together<RunError>(communicator_, [&] {
+  parallel::together<RunError>(communicator_, [&] {
     for (const std::string& dataset : datasets) ranges.push_back(file_->bytes_of(dataset));
   });
-  on_root<RunError>(communicator_, [&] { reserve_space(file_->path(), ranges); });
+  parallel::on_root<RunError>(communicator_, [&] { reserve_space(file_->path(), ranges); });
 }
 
 std::string FieldSeries::xdmf_reals(const std::string& dataset, int components, Centring centring) const {
@@ -196,7 +196,7 @@ std::string FieldSeries::xdmf_annotations(const std::vector<Annotation>& annotat
 }
 
 void FieldSeries::write_xdmf() const {
-  on_root<RunError>(communicator_, [&] {
+  parallel::on_root<RunError>(communicator_, [&] {
     std::string text = fmt::format(
         R"(<?xml version="1.0"?>
 <Xdmf Version="3.0">

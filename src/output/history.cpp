@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "output/atomic_file.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::output {
 namespace {
@@ -58,12 +58,12 @@ History::History(std::filesystem::path path, parallel::Communicator communicator
 History::History(std::filesystem::path path, parallel::Communicator communicator, long restart_step)
     : path_(std::move(path)), communicator_(communicator) {
   std::string kept;
-  on_root<InputError>(communicator_, [&] { kept = kept_text(path_, restart_step); });
+  parallel::on_root<InputError>(communicator_, [&] { kept = kept_text(path_, restart_step); });
   start_with(kept);
 }
 
 void History::start_with(const std::string& text) {
-  on_root<RunError>(communicator_, [&] {
+  parallel::on_root<RunError>(communicator_, [&] {
     write_atomically(path_, text);
     file_.open(path_, std::ios::binary | std::ios::app);
     if (!file_) throw RunError(fmt::format("{}: cannot open: {}", path_.string(), std::strerror(errno)));
@@ -71,7 +71,7 @@ void History::start_with(const std::string& text) {
 }
 
 void History::append(const HistoryRow& row) {
-  on_root<RunError>(communicator_, [&] {
+  parallel::on_root<RunError>(communicator_, [&] {
     file_ << line_of(row) << std::flush;
     if (!file_) throw RunError(fmt::format("{}: cannot add a row: {}", path_.string(), std::strerror(errno)));
   });

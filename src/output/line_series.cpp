@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::output {
 namespace {
@@ -29,7 +29,7 @@ PointLayout in_rank_order(std::size_t mine, const parallel::Communicator& commun
 
 SeriesLayout layout_of(LineSource& source, const parallel::Communicator& communicator) {
   std::size_t points = 0, ends = 0;
-  together<RunError>(communicator, [&] {
+  parallel::together<RunError>(communicator, [&] {
     points = source.positions().count;
     ends = source.connectivity().size();
   });
@@ -71,7 +71,7 @@ LineSeries::LineSeries(const LineSeriesPlan& plan, LineSource& source, parallel:
                 .centring = Centring::cell}},
               communicator) {
   std::vector<std::int64_t> ends;
-  together<RunError>(communicator, [&] { ends = global_ends(source, layout_.points); });
+  parallel::together<RunError>(communicator, [&] { ends = global_ends(source, layout_.points); });
   series_.write_fixed("/connectivity", ends);
   series_.write_fixed("/position", source.positions());
 }

@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "output/atomic_file.hpp"
-#include "output/together.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::output {
 namespace {
@@ -84,7 +84,7 @@ void RunRecord::fail(const std::string& reason, const Results& results, const Pe
 }
 
 void RunRecord::write(const std::string& status, const Results& results, const Performance& performance) {
-  on_root<RunError>(communicator_, [&] {
+  parallel::on_root<RunError>(communicator_, [&] {
     document_["status"] = status;
     document_["results"] = results;
     document_["performance"] = performance;

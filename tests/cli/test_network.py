@@ -136,7 +136,15 @@ class Network(unittest.TestCase):
                 with self.subTest(name, ranks=ranks, more=more):
                     self.assert_refused(self.rhexis("run", "n.toml", *more, ranks=ranks), fragments, name, files)
         self.write("v.csv", VESSELS)
-        self.assert_refused(self.rhexis("run", "n.toml", "--set", "network.query=['9']"), ["no vessel '9'"], "query", files)
+        for tier in ("explicit", "distributed"):
+            result = self.rhexis("run", "n.toml", "--set", "network.query=['9']", "--set", f"network.tier={tier}", ranks=2)
+            self.assert_refused(result, ["no vessel '9'"], f"query, {tier}", files)
+        # More loops than series and parallel vessels make.
+        self.write("v.csv", VESSELS + "3,a,c,9\n4,d,b,9\n5,d,c,9\n6,b,e,9\n7,e,c,9\n8,e,f,9\n9,f,b,9\n10,f,c,9\n")
+        self.write("j.csv", JUNCTIONS + "d,1,1,1,20\ne,2,2,2,\nf,3,2,2,\n")
+        result = self.rhexis("run", "n.toml", "--set", "network.solver=elimination")
+        self.assert_refused(result, ["'elimination' leaves", "'auto'"], "elimination", files)
+        self.write("v.csv", VESSELS)
         os.remove(self.path / "j.csv")
         self.assert_refused(self.rhexis("run", "n.toml"), ["network.files", "j.csv"], "absent file", ["n.toml", "v.csv"])
 

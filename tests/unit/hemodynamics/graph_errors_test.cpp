@@ -90,6 +90,9 @@ TEST(GraphErrors, EliminationOfWhatItCannotSolve) {
   expect_named(message_of(graph, {1, 1, 1, 1, 1}, {pressure(0, 1), pressure(3, 0)},
                           {.solver = GraphSolver::elimination}),
                "leaves 2 junctions");
+  const Conditions ends{pressure(0, 1), pressure(3, 0)};
+  EXPECT_THROW(check_flow_problem(graph, ends, {.solver = GraphSolver::elimination}), InputError);
+  check_flow_problem(graph, ends);
 }
 
 TEST(GraphErrors, ImbalanceNotReached) {

@@ -1,0 +1,78 @@
+#include "app/run_base.hpp"
+
+#include <fmt/format.h>
+
+#include "app/stopwatch.hpp"
+#include "app/version.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "peridynamics/bond_kernel.hpp"
+
+namespace rhexis::app {
+
+RunBase::RunBase(Configuration configuration, RunOptions options, parallel::Communicator comm)
+    : c_(std::move(configuration)),
+      options_(std::move(options)),
+      comm_(comm),
+      console_(comm.is_root(), options_.quiet),
+      started_(seconds_now()) {}
+
+void RunBase::open_directory(output::EarlierResults earlier) {
+  output::prepare_directory(options_.directory, earlier, comm_);
+}
+
+void RunBase::open_record() {
+  record_.emplace(options_.directory / "run.json", version(), commit(), c_.record, comm_);
+}
+
+void RunBase::note_failure(const std::string& reason) {
+  if (!record_) return;
+  try {
+    record_->fail(reason, results_, performance());
+  } catch (const RunError& also) {
+    console_.warning(also.what());
+  }
+}
+
+output::Performance RunBase::performance() const {
+  output::Performance p;
+  p.ranks = comm_.size();
+  p.threads = parallel::thread_count();
+  p.wall_s = seconds_now() - started_;
+  p.solve_s = spent_.solve;
+  p.insitu_s = spent_.insitu;
+  p.output_s = spent_.output;
+  if (bond_evaluations_) {
+    p.bond_evaluations = comm_.all_reduce(*bond_evaluations_, parallel::Reduce::sum);
+    if (spent_.solve > 0) p.bond_evaluations_per_s = static_cast<double>(*p.bond_evaluations) / spent_.solve;
+    p.flop = static_cast<double>(*p.bond_evaluations) * peridynamics::flop_per_bond;
+  }
+  p.peak_rss_bytes = comm_.all_reduce(output::peak_resident_bytes(), parallel::Reduce::sum);
+  p.node_hours = *p.wall_s * comm_.node_count() / 3600;
+  return p;
+}
+
+void RunBase::say_input() {
+  console_.line(
+      fmt::format("Rhexis {} ({}): {}", version(), commit(), c_.title.empty() ? c_.file : c_.title));
+  for (const std::string& warning : c_.warnings) console_.warning(warning);
+  console_.item("input", c_.file);
+}
+
+void RunBase::say_surroundings(const std::string& renderer) {
+  console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
+                                        parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
+  console_.item("pictures", renderer);
+  console_.item("results", options_.directory.string());
+}
+
+void RunBase::say_cost(const output::Performance& p) {
+  console_.item("time spent",
+                fmt::format("{} in all: {} solving, {} pictures, {} output", duration(*p.wall_s),
+                            duration(*p.solve_s), duration(*p.insitu_s), duration(*p.output_s)));
+  console_.item("memory",
+                fmt::format("{:.0f} MB over all ranks", static_cast<double>(*p.peak_rss_bytes) / 1e6));
+  console_.item("results", options_.directory.string());
+}
+
+}  // namespace rhexis::app

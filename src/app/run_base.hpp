@@ -1,0 +1,52 @@
+/// What every run has, whatever it simulates: options, terminal, clock, results and their record.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/configuration.hpp"
+#include "app/console.hpp"
+#include "app/run_options.hpp"
+#include "output/directory.hpp"
+#include "output/run_record.hpp"
+#include "parallel/communicator.hpp"
+
+namespace rhexis::app {
+
+class RunBase {
+ protected:
+  struct Spent {
+    double solve = 0, output = 0, insitu = 0;  ///< s
+  };
+
+  RunBase(Configuration configuration, RunOptions options, parallel::Communicator comm);
+
+  /// Makes the folder of results ready; `open_record` begins run.json in it.
+  void open_directory(output::EarlierResults earlier);
+  void open_record();
+  /// Tells run.json why the run failed; a disk that is full for this too must not hide the reason.
+  void note_failure(const std::string& reason);
+  /// Collective.
+  output::Performance performance() const;
+
+  /// First lines of the header: program, title, warnings, input.
+  void say_input();
+  /// Last lines of the header: ranks and threads, `renderer` (who draws, or why nobody does), results.
+  void say_surroundings(const std::string& renderer);
+  /// Last lines of the summary.
+  void say_cost(const output::Performance& p);
+
+  Configuration c_;
+  RunOptions options_;
+  parallel::Communicator comm_;
+  Console console_;
+  std::optional<output::RunRecord> record_;
+  output::Results results_;
+  Spent spent_;
+  std::optional<std::int64_t> bond_evaluations_;  ///< directed, of this rank
+
+ private:
+  double started_;  ///< s, of the clock
+};
+
+}  // namespace rhexis::app
