@@ -8,7 +8,9 @@
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
+#include "app/network_coupling.hpp"
 #include "app/network_run.hpp"
+#include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "app/vessel_run.hpp"
 #include "input/keys.hpp"
@@ -56,6 +58,7 @@ int carry_out(const Command& command, parallel::Communicator comm) {
     if (comm.is_root()) fmt::print("{}", text);
     return 0;
   }
+  const double started = seconds_now();
   Configuration configuration = read_configuration(command.file, command.overrides, comm);
   if (command.action == Action::check) {
     check(configuration, comm);
@@ -67,9 +70,13 @@ int carry_out(const Command& command, parallel::Communicator comm) {
                           : std::filesystem::path(command.directory);
   options.restart = command.restart;
   options.quiet = command.quiet;
-  const Ending ending = configuration.model == "network"
-                            ? NetworkRun(std::move(configuration), options, comm).run()
-                            : VesselRun(std::move(configuration), options, comm).run();
+  options.started = started;
+  const auto run = [&] {
+    if (configuration.model == "network") return NetworkRun(std::move(configuration), options, comm).run();
+    if (configuration.is_coupled()) return run_coupled(std::move(configuration), options, comm);
+    return VesselRun(std::move(configuration), options, comm).run();
+  };
+  const Ending ending = run();
   return ending == Ending::interrupted ? 130 : 0;
 }
 

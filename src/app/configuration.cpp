@@ -89,15 +89,17 @@ void append(ParameterList& all, const ParameterList& part) {
 }
 
 ParameterList declare_scene(Configuration& c) {
-  return {{"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
-          {"scene.model",
-           &c.model,
-           "",
-           "\"vessel\"",
-           "What is simulated: the rupture of one vessel's wall, or the flow in a network of vessels.",
-           "",
-           {},
-           {"vessel", "network"}}};
+  return {
+      {"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
+      {"scene.model",
+       &c.model,
+       "",
+       "\"vessel\"",
+       "What is simulated: the rupture of one vessel's wall, the flow in a network of vessels, or both: the "
+       "rupture of a vessel of a network.",
+       "Sec. 3.3",
+       {},
+       {"vessel", "network", "coupled"}}};
 }
 
 ParameterList declare_vessel(Configuration& c) {
@@ -114,21 +116,45 @@ ParameterList declare_network(Configuration& c) {
   return all;
 }
 
-/// The keys of the scene's model, as the document gives it; a key of the other model's is refused.
+/// Keys of a vessel that its network takes over where they are coupled.
+bool network_knows(const std::string& key) {
+  return input::section_of(key) == "vessel" || key == "load.pressure" || key == "load.table" ||
+         key == "load.blood_density";
+}
+
+ParameterList declare_coupled(Configuration& c) {
+  ParameterList all = coupling::declare(c.coupling);
+  for (const Parameter& parameter : declare_vessel(c)) {
+    if (!network_knows(parameter.key)) all.push_back(parameter);
+  }
+  append(all, declare_network(c));
+  return all;
+}
+
+/// The keys of the scene's model, as the document gives it; a key of another model's is refused.
 ParameterList declare_model(Configuration& c, const input::Document& document) {
-  ParameterList parts[2] = {declare_vessel(c), declare_network(c)};
-  const char* const models[2] = {"vessel", "network"};
-  std::string model = models[0];
+  const std::pair<std::string, ParameterList> models[] = {
+      {"vessel", declare_vessel(c)}, {"network", declare_network(c)}, {"coupled", declare_coupled(c)}};
+  std::string model = "vessel";
   for (const input::Entry& entry : document.entries) {
     if (entry.key != "scene.model") continue;
     if (const auto* text = std::get_if<std::string>(&entry.value.content)) model = *text;
   }
-  const int chosen = model == models[1] ? 1 : 0;
-  const auto other = input::sections_of(parts[1 - chosen]);
+  const ParameterList* chosen = &models[0].second;
+  for (const auto& [name, keys] : models) {
+    if (name == model) chosen = &keys;
+  }
+  const auto has = [](const ParameterList& keys, const std::string& section) {
+    const auto sections = input::sections_of(keys);
+    return std::find(sections.begin(), sections.end(), section) != sections.end();
+  };
   const auto refuse = [&](const std::string& place, const std::string& section) {
-    if (std::find(other.begin(), other.end(), section) == other.end()) return;
-    throw InputError(place + ": section [" + section + "] belongs to scenes with scene.model = \"" +
-                     models[1 - chosen] + "\"; this scene's is \"" + models[chosen] + "\"");
+    if (has(*chosen, section)) return;
+    for (const auto& [name, keys] : models) {
+      if (!has(keys, section)) continue;
+      throw InputError(place + ": section [" + section + "] belongs to scenes with scene.model = \"" + name +
+                       "\"; this scene's is \"" + model + "\"");
+    }
   };
   for (const input::Section& section : document.sections) {
     refuse(document.file + ":" + std::to_string(section.line), section.name);
@@ -136,13 +162,14 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
   for (const input::Entry& entry : document.entries)
     refuse(document.place(entry), input::section_of(entry.key));
   ParameterList all = declare_scene(c);
-  append(all, parts[chosen]);
+  append(all, *chosen);
   append(all, insitu::declare(c.insitu));
   return all;
 }
 
 void resolve_vessel(Configuration& c) {
-  c.warnings = peridynamics::resolve(c.vessel);
+  const auto warnings = peridynamics::resolve(c.vessel);
+  c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
   settle_time_step(c);
   c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
 }
@@ -182,6 +209,7 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
     }
   };
   for (const std::string& vessel : n.query) check_path(vessel, "network.query");
+  if (c.is_coupled()) check_path(c.coupling.vessel, "coupling.vessel");
   check_path(n.shown_subtree, "network.shown_subtree");
   if (n.tier == "explicit" && c.tree.generations > 27) {
     throw InputError(
@@ -191,12 +219,39 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
   }
 }
 
+/// What can be told before the network is solved.
+void resolve_coupling(Configuration& c) {
+  coupling::Parameters& p = c.coupling;
+  if (c.network.tier == "distributed")
+    throw InputError("a coupled vessel needs an implicit or explicit network", "network.tier");
+  if (c.vessel.schedule == "table")
+    throw InputError("the network says the pressure; a schedule by table is for scenes of one vessel",
+                     "load.schedule");
+  if (p.window && *p.window > c.vessel.end_time)
+    throw InputError("longer than the run, time.end = " + quantity(c.vessel.end_time, "s"),
+                     "coupling.window");
+  if (!p.window) p.window = c.vessel.end_time / 200;
+  if (p.compression_from && p.compression_to && *p.compression_from >= *p.compression_to)
+    throw InputError("must be above body.compression_from", "body.compression_to");
+  c.vessel.blood_density = c.hemodynamics.density;
+  c.network.query.push_back(p.vessel);
+}
+
 }  // namespace
+
+void resolve_wall(Configuration& c) {
+  try {
+    resolve_vessel(c);
+  } catch (const InputError& error) {
+    throw input::located(error, c.resolved);
+  }
+}
 
 ParameterList declare(Configuration& c) {
   ParameterList all = declare_scene(c);
   append(all, declare_vessel(c));
   append(all, declare_network(c));
+  append(all, coupling::declare(c.coupling));
   append(all, insitu::declare(c.insitu));
   return all;
 }
@@ -206,18 +261,19 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
   Configuration c;
   c.file = file;
   const input::Document document = input::parse_document(read_on_root(file, comm), file, overrides);
-  const input::Resolved resolved = input::read(document, declare_model(c, document));
+  c.resolved = input::read(document, declare_model(c, document));
   try {
-    if (c.model == "network") {
-      resolve_network(c, comm);
-    } else {
+    if (c.model == "vessel") {
       resolve_vessel(c);
+    } else {
+      resolve_network(c, comm);
+      if (c.is_coupled()) resolve_coupling(c);
     }
     if (c.insitu.enabled) find_files(c.insitu.scripts, "insitu.scripts", "Catalyst script", c.file, comm);
   } catch (const InputError& error) {
-    throw input::located(error, resolved);
+    throw input::located(error, c.resolved);
   }
-  c.record = input::to_json(resolved);
+  c.record = input::to_json(c.resolved);
   return c;
 }
 

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "coupling/parameters.hpp"
 #include "hemodynamics/parameters.hpp"
+#include "input/reader.hpp"
 #include "insitu/parameters.hpp"
 #include "network/parameters.hpp"
 #include "output/parameters.hpp"
@@ -18,25 +20,33 @@ namespace rhexis::app {
 struct Configuration {
   std::string file;
   std::string title;
-  std::string model;  ///< "vessel" | "network"
+  std::string model;  ///< "vessel" | "network" | "coupled"
   peridynamics::Parameters vessel;
   network::Parameters network;
   hemodynamics::Parameters hemodynamics;
+  coupling::Parameters coupling;
   output::Parameters output;
   insitu::Parameters insitu;
 
   network::TreeRules tree;  ///< where network.source = "tree"
+
+  bool is_coupled() const { return model == "coupled"; }
 
   double stable_time_step = 0;  ///< s
   double time_step = 0;         ///< s
   long steps = 0;
   std::vector<long> output_steps;
   std::vector<std::string> warnings;
+  input::Resolved resolved;       ///< for messages about values that do not fit together
   nlohmann::ordered_json record;  ///< as resolved, for run.json
 };
 
 /// Every key there is, bound to `c`.
 ParameterList declare(Configuration& c);
+
+/// Settles what follows from a vessel's values. Where the scene is coupled, its geometry comes from the
+/// network, so this has to wait for that. Throws InputError, complete with place.
+void resolve_wall(Configuration& c);
 
 /// Reads and validates `file` with `overrides`, and settles what follows from them: time step and plan of
 /// output, or the rules of a tree. Only the sections of the scene's model are read; any other is an error.

@@ -60,6 +60,10 @@ class DistributedTier : public NetworkTier {
     return s;
   }
 
+  std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel&) override {
+    throw InputError("a coupled vessel needs an implicit or explicit network", "network.tier");
+  }
+
  private:
   void take_tree_part() {
     const network::TreePair tree(c_.tree);

@@ -46,6 +46,13 @@ class ExplicitTier : public NetworkTier {
     return s;
   }
 
+  std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel& queried) override {
+    if (!comm_.is_root()) return nullptr;
+    return coupling::vessel_in_graph(network_.graph,
+                                     conductances(network_.graph, mechanics_.viscosity, haematocrit_),
+                                     network_.conditions, static_cast<std::uint32_t>(queried.vessel));
+  }
+
  private:
   void solve_here(NetworkSolution& s, const Say& say) {
     const Graph& graph = network_.graph;

@@ -161,7 +161,8 @@ std::uint32_t find_vessel(const Configuration& c, const Graph& graph, const std:
     const auto number = static_cast<std::size_t>(std::stoul(name));
     if (number < graph.vessels()) return static_cast<std::uint32_t>(number);
   }
-  throw InputError("there is no vessel '" + name + "' in " + c.network.files.back(), "network.query");
+  throw InputError("there is no vessel '" + name + "' in " + c.network.files.back(),
+                   c.is_coupled() && name == c.coupling.vessel ? "coupling.vessel" : "network.query");
 }
 
 std::vector<std::uint32_t> widest_vessels(const Graph& graph, std::size_t count) {

@@ -49,7 +49,7 @@ class ImplicitTier : public NetworkTier {
     s.junctions = static_cast<std::int64_t>(tree_.junctions());
     s.solver = c_.tree.repeats() ? "recursion, one vessel a generation" : "recursion";
     double spent = 0;
-    std::optional<TreeFlow> flow;
+    std::optional<TreeFlow>& flow = flow_;
     {
       const Stopwatch watch(spent);
       flow.emplace(tree_, mechanics_.viscosity, boundary(), comm_);
@@ -62,6 +62,10 @@ class ImplicitTier : public NetworkTier {
     for (const std::string& name : c_.network.query) s.queries.push_back(query(*flow, name));
     show(*flow, s);
     return s;
+  }
+
+  std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel& queried) override {
+    return coupling::vessel_in_tree(*flow_, static_cast<std::uint64_t>(queried.vessel));
   }
 
  private:
@@ -133,6 +137,7 @@ class ImplicitTier : public NetworkTier {
   parallel::Communicator comm_;
   TreePair tree_;
   hemodynamics::VesselMechanics mechanics_;
+  std::optional<TreeFlow> flow_;
 };
 
 }  // namespace

@@ -18,35 +18,11 @@ std::string flow_text(double flow) {
   return fmt::format("{}{}", flow < 0 ? "-" : "", quantity(std::abs(flow) * 6e4, "L/min"));
 }
 
-const char* kind_text(network::VesselKind kind) {
-  return kind == network::VesselKind::artery ? "artery"
-         : kind == network::VesselKind::vein ? "vein"
-                                             : "vessel";
-}
-
 std::string percent(double relative) {
   return relative == 0 ? "0" : fmt::format("{:.1e}", relative);
 }
 
 }  // namespace
-
-nlohmann::ordered_json to_json(const QueriedVessel& q) {
-  nlohmann::ordered_json json{{"name", q.name},
-                              {"vessel", q.vessel},
-                              {"kind", kind_text(q.kind)},
-                              {"generation", nullptr},
-                              {"radius_m", q.radius},
-                              {"length_m", q.length},
-                              {"wall_thickness_m", q.wall_thickness},
-                              {"flow_m3_s", q.flow},
-                              {"pressure_from_Pa", q.pressure_from},
-                              {"pressure_to_Pa", q.pressure_to}};
-  json["start_m"] = json["end_m"] = nullptr;
-  if (q.generation >= 0) json["generation"] = q.generation;
-  if (q.start) json["start_m"] = *q.start;
-  if (q.end) json["end_m"] = *q.end;
-  return json;
-}
 
 void NetworkRun::say_header() {
   const hemodynamics::Parameters& h = c_.hemodynamics;

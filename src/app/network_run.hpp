@@ -9,9 +9,6 @@
 
 namespace rhexis::app {
 
-/// As in run.json.
-nlohmann::ordered_json to_json(const QueriedVessel& q);
-
 class NetworkRun : private RunBase {
  public:
   NetworkRun(Configuration configuration, RunOptions options, parallel::Communicator comm);
@@ -22,9 +19,6 @@ class NetworkRun : private RunBase {
  private:
   void say_header();
   void solve();
-  void write_tables();
-  void write_lines();
-  void write_vtp();
   void draw();
   void say_summary();
 

@@ -10,4 +10,10 @@ std::unique_ptr<NetworkTier> make_tier(const Configuration& c, parallel::Communi
   return make_explicit_tier(c, comm);
 }
 
+const char* kind_text(network::VesselKind kind) {
+  return kind == network::VesselKind::artery ? "artery"
+         : kind == network::VesselKind::vein ? "vein"
+                                             : "vessel";
+}
+
 }  // namespace rhexis::app

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/configuration.hpp"
+#include "coupling/vessel_in_network.hpp"
 #include "hemodynamics/tree_statistics.hpp"
 #include "hemodynamics/vessel_lines.hpp"
 #include "network/graph.hpp"
@@ -55,6 +56,9 @@ struct NetworkSolution {
 /// Says what is going on, at the terminal.
 using Say = std::function<void(const std::string&)>;
 
+/// "artery", "vein" or "vessel".
+const char* kind_text(network::VesselKind kind);
+
 class NetworkTier {
  public:
   virtual ~NetworkTier() = default;
@@ -65,6 +69,9 @@ class NetworkTier {
   virtual void prepare() = 0;
   /// Throws RunError. Collective.
   virtual NetworkSolution solve(const Say& say) = 0;
+  /// A vessel among `network.query` within the network that was solved; valid as long as this. Null on ranks
+  /// that do not hold it (never on the first). Collective.
+  virtual std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel& queried) = 0;
 };
 
 std::unique_ptr<NetworkTier> make_implicit_tier(const Configuration& c, parallel::Communicator comm);

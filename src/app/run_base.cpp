@@ -15,7 +15,7 @@ RunBase::RunBase(Configuration configuration, RunOptions options, parallel::Comm
       options_(std::move(options)),
       comm_(comm),
       console_(comm.is_root(), options_.quiet),
-      started_(seconds_now()) {}
+      started_(options_.started) {}
 
 void RunBase::open_directory(output::EarlierResults earlier) {
   output::prepare_directory(options_.directory, earlier, comm_);

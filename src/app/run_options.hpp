@@ -9,6 +9,7 @@ struct RunOptions {
   std::filesystem::path directory;
   std::filesystem::path restart;  ///< checkpoint; empty: from the start
   bool quiet = false;
+  double started = 0;  ///< s, of the clock
 };
 
 enum class Ending { completed, interrupted };

@@ -25,6 +25,7 @@ void VesselRun::say_header() {
                 fmt::format("{} ({}), layer {}, venting {}",
                             quantity(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
                             v.schedule, v.layer, v.venting));
+  if (coupling_ != nullptr) coupling_->say_header(console_);
   say_surroundings(renderer_);
 }
 
@@ -52,6 +53,7 @@ void VesselRun::say_summary() {
   console_.item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s",
                                      *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
                                      p.bond_evaluations_per_s.value_or(0)));
+  if (coupling_ != nullptr) coupling_->say_summary(console_);
   say_cost(p);
 }
 

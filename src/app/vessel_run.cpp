@@ -25,8 +25,16 @@ enum Flag : std::uint64_t { interrupted = 1, broken = 2, ruptured = 4, unstable 
 
 }  // namespace
 
-VesselRun::VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
-    : RunBase(std::move(configuration), std::move(options), comm) {}
+VesselRun::VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm,
+                     NetworkCoupling* coupling)
+    : RunBase(std::move(configuration), std::move(options), comm), coupling_(coupling) {
+  if (coupling_ == nullptr || !coupling_->two_way()) return;
+  if (!options_.restart.empty() || c_.output.checkpoint_every > 0) {
+    throw InputError(
+        "checkpoints do not hold the state of two-way coupling yet: no --restart and "
+        "output.checkpoint_every = 0");
+  }
+}
 
 VesselRun::~VesselRun() = default;
 
@@ -69,6 +77,11 @@ void VesselRun::build() {
       peridynamics::make_setup(c_.vessel, lattice_, std::move(families), c_.time_step), comm_);
   source_ = std::make_unique<peridynamics::ParticleSource>(*body_);
   gauge_ = std::make_unique<peridynamics::OpeningGauge>(lattice_, *body_, comm_);
+  if (coupling_ == nullptr) return;
+  lumen_ = std::make_unique<peridynamics::LumenGauge>(lattice_, *body_, comm_);
+  take_load();
+  results_.network = coupling_->network_results();
+  results_.coupling = coupling_->results();
 }
 
 void VesselRun::open_results() {
@@ -81,6 +94,7 @@ void VesselRun::open_results() {
     history_.emplace(options_.directory / "history.csv", comm_);
   }
   open_record();
+  if (coupling_ != nullptr) coupling_->open(options_.directory);
   if (c_.output.fields.empty()) return;
   output::PointSeriesPlan plan;
   plan.directory = options_.directory;
@@ -128,8 +142,11 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     const Stopwatch watch(spent_.output);
     const peridynamics::Totals t = body_->totals();
     open_area_ = gauge_->area();
-    const double leak = peridynamics::orifice_flow(c_.vessel.discharge_coefficient, open_area_, pressure,
-                                                   c_.vessel.blood_density);
+    const double leak = coupling_ != nullptr && coupling_->two_way()
+                            ? coupling_->leak()
+                            : peridynamics::orifice_flow(c_.vessel.discharge_coefficient, open_area_,
+                                                         pressure, c_.vessel.blood_density);
+    if (coupling_ != nullptr) results_.coupling = coupling_->results();
     results_.steps = step;
     results_.simulated_s = time_at(step);
     results_.max_displacement_m = t.max_displacement;
@@ -150,7 +167,8 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   }
   if (with_pictures) {
     const Stopwatch watch(spent_.insitu);
-    pipeline_->process({.particles = source_.get(), .network = nullptr});
+    pipeline_->process(
+        {.particles = source_.get(), .network = coupling_ != nullptr ? &coupling_->lines() : nullptr});
   }
 }
 
@@ -185,6 +203,24 @@ void VesselRun::vent(long step) {
   least_vent_ = std::min(least_vent_, vent_next_);
 }
 
+/// Takes over what the network says of the load.
+void VesselRun::take_load() {
+  c_.vessel.pressure = coupling_->pressure();
+  body_->set_axial_profile(coupling_->profile(lattice_.rows, lattice_.row_spacing));
+}
+
+/// Tells the network of lumen and opening. From the onset of rupture the lumen counts as it was then:
+/// fragments are no wall.
+void VesselRun::exchange(long step) {
+  if (!results_.rupture_onset_s) resistance_factor_ = lumen_->resistance_factor();
+  if (results_.first_bond_break_s) open_area_ = gauge_->area();
+  coupling_->exchange({.time_s = time_at(step),
+                       .schedule = peridynamics::schedule_share(c_.vessel, time_at(step)),
+                       .opening = open_area_,
+                       .resistance_factor = resistance_factor_});
+  take_load();
+}
+
 void VesselRun::time_loop() {
   const InterruptGuard guard;
   const auto output_due = [&](long step) {
@@ -197,6 +233,10 @@ void VesselRun::time_loop() {
         c_.output.checkpoint_every > 0 && step_ > first_step_ && step_ % c_.output.checkpoint_every == 0;
     // First of all, because a launcher that was interrupted may not leave time for more.
     if (interrupted_ || saves) write_checkpoint(step_);
+    if (coupling_ != nullptr && coupling_->due(step_)) {
+      const Stopwatch watch(spent_.solve);
+      exchange(step_);
+    }
     if (due || pictures) observe(step_, due, pictures);
     console_.progress(step_, c_.steps,
                       fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/network_coupling.hpp"
 #include "app/run_base.hpp"
 #include "insitu/pipeline.hpp"
 #include "output/history.hpp"
@@ -16,7 +17,9 @@ namespace rhexis::app {
 
 class VesselRun : private RunBase {
  public:
-  VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm);
+  /// `coupling`: the network that the vessel is part of, which the configuration comes from.
+  VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm,
+            NetworkCoupling* coupling = nullptr);
   ~VesselRun();
 
   /// Runs to the end, or to the step after an interrupt. Throws RunError (after noting it in run.json) or
@@ -34,6 +37,8 @@ class VesselRun : private RunBase {
   bool pictures_due(long step, bool output_due);
   void take_notice(long step, std::uint64_t flags);
   void vent(long step);
+  void exchange(long step);
+  void take_load();
   void write_checkpoint(long step);
   void read_checkpoint();
   void finish_pictures();
@@ -45,6 +50,9 @@ class VesselRun : private RunBase {
   std::unique_ptr<peridynamics::Body> body_;
   std::unique_ptr<peridynamics::ParticleSource> source_;
   std::unique_ptr<peridynamics::OpeningGauge> gauge_;
+  NetworkCoupling* coupling_;
+  std::unique_ptr<peridynamics::LumenGauge> lumen_;
+  double resistance_factor_ = 1;  ///< of the lumen
   std::unique_ptr<insitu::Pipeline> pipeline_;
   std::string renderer_;  ///< who draws, or why nobody does
   std::optional<output::PointSeries> series_;

@@ -51,7 +51,8 @@ void to_json(Json& json, const Results& results) {
                        {"rupture_length_m", or_null(results.rupture_length_m)},
                        {"opening_area_m2", or_null(results.opening_area_m2)},
                        {"energy_drift", or_null(results.energy_drift)},
-                       {"network", results.network}});
+                       {"network", results.network},
+                       {"coupling", results.coupling}});
 }
 
 void to_json(Json& json, const Performance& performance) {

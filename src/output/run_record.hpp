@@ -39,6 +39,7 @@ struct Results {
   std::optional<double> opening_area_m2 = {};   ///< of the holes in the wall, at the end
   std::optional<double> energy_drift = {};
   NetworkResults network = {};
+  nlohmann::ordered_json coupling = nullptr;  ///< the vessel's place in the network, and what they exchanged
 };
 
 /// The `performance` part; a member without a value is written as null.

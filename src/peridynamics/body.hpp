@@ -69,6 +69,10 @@ class Body {
   virtual void set_state(const std::array<std::vector<double>, 3>& displacement,
                          const std::array<std::vector<double>, 3>& velocity) = 0;
 
+  /// The pressure in each row [rows of the whole body] relative to the one that steps are given, 0 to 1; all
+  /// 1 before. Also takes effect on work and observations.
+  virtual void set_axial_profile(std::vector<double> profile) = 0;
+
   /// Advances by one step under `pressure` (Pa) at t_n; `next_pressure` is the one at t_{n+1}, for the work
   /// done. Collective.
   virtual StepEvents advance(double pressure, double next_pressure) = 0;

@@ -73,6 +73,7 @@ class ColumnBody final : public Body {
     for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c) {
       largest_load_ = std::max(largest_load_, std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
     }
+    set_axial_profile(std::vector<double>(static_cast<std::size_t>(domain_.layout().rows), 1.0));
     const auto particles = static_cast<std::size_t>(domain_.layout().local_count());
     for (int k = 0; k < 3; ++k) {
       u_[k].assign(particles, 0.0);
@@ -104,6 +105,7 @@ class ColumnBody final : public Body {
     fill_padded();
   }
 
+  void set_axial_profile(std::vector<double> profile) override { profile_ = std::move(profile); }
   StepEvents advance(double pressure, double next_pressure) override;
   const Observation& observe(double pressure) override;
   Totals totals() const override;
@@ -130,6 +132,10 @@ class ColumnBody final : public Body {
   /// First particle of a unit in the state arrays.
   std::size_t particle(Unit unit) const {
     return static_cast<std::size_t>(unit.slot * domain_.layout().row_count + unit.block * block_rows);
+  }
+  /// Of a unit's rows.
+  const double* profile(Unit unit) const {
+    return profile_.data() + domain_.layout().first_row + unit.block * block_rows;
   }
   std::size_t padded_place(Unit unit) const {
     return domain_.padded(static_cast<std::size_t>(unit.slot)) +
@@ -196,7 +202,8 @@ class ColumnBody final : public Body {
   /// m/s, what the load so far would have given a loose particle. One that is four times as fast, and moves
   /// more than two spacings a step besides, was not moved by forces of the model: the step is unstable.
   double load_speed_ = 0;
-  double largest_load_ = 0;  ///< 1/m, of the pressure layer
+  std::vector<double> profile_;  ///< [rows of the whole body]
+  double largest_load_ = 0;      ///< 1/m, of the pressure layer
   Observation observation_;
   ThreadTotals observed_{1.0};
 };

@@ -18,6 +18,7 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   const double energy_scale = force_scale * lattice.spacing;
   const double particle_volume = lattice.volume(column);
   const double load[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
+  const double* share = profile(unit);
   const std::size_t first = particle(unit);
   const int rows = domain_.rows_in(unit.block);
 
@@ -25,7 +26,7 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   for (int k = 0; k < 3; ++k) {
     const auto [first_free, past_free] = free_rows(unit, k);
     for (int lane = 0; lane < rows; ++lane) {
-      const double force = force_scale * static_cast<double>(sums.force[k][lane]) + load[k];
+      const double force = force_scale * static_cast<double>(sums.force[k][lane]) + share[lane] * load[k];
       const bool moves = lane >= first_free && lane < past_free;
       const double v = v_[k][first + lane] + (moves ? kick * force / setup_.density : 0.0);
       observation_.force_density[k][first + lane] = force;

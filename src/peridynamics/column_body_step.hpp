@@ -93,6 +93,7 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
   const double body_force[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
   const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
   const double bond_acceleration = setup_.bond_constant * volume / setup_.density;
+  const double* share = profile(unit);
   const double dt = setup_.time_step;
   const double fastest = 2 * lattice.spacing / dt + 4 * load_speed_;
   const auto next_u = next();
@@ -107,10 +108,10 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
     const double frame = frame_[k];
     double path = 0;
     for (int lane = first; lane < past; ++lane) {
-      v[lane] += kick * (bond_acceleration * static_cast<double>(sums.force[k][lane]) + load);
+      v[lane] += kick * (bond_acceleration * static_cast<double>(sums.force[k][lane]) + share[lane] * load);
       u[lane] += dt * v[lane];
       out[lane] = static_cast<Real>((u[lane] - frame) * inverse_spacing_);
-      path += v[lane];
+      path += share[lane] * v[lane];
       sane &= std::abs(v[lane]) < fastest;
     }
     if (k == 0) work += setup_.layer.bx[column] * path;

@@ -91,6 +91,43 @@ double OpeningGauge::area() const {
   return area;
 }
 
+LumenGauge::LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm)
+    : body_(&body), comm_(comm) {
+  const CrossSection& s = lattice.section;
+  double least = INFINITY;
+  for (std::size_t c = 0; c < s.size(); ++c) least = std::min(least, std::hypot(s.x[c], s.y[c]));
+  for (std::size_t c = 0; c < s.size(); ++c) {
+    if (std::hypot(s.x[c], s.y[c]) < least + 0.75 * lattice.spacing) {
+      innermost_.push_back(static_cast<std::int64_t>(c));
+    }
+  }
+}
+
+double LumenGauge::resistance_factor() const {
+  constexpr double quantum = 0x1p-40;  // of stretch: sums of integers do not depend on ranks
+  const PointLayout& layout = body_->layout();
+  const auto u = body_->displacement();
+  std::vector<std::int64_t> stretch(static_cast<std::size_t>(layout.rows));
+  for (const std::int64_t column : innermost_) {
+    const std::int64_t c = column - layout.first_column;
+    if (c < 0 || c >= layout.column_count) continue;
+    for (std::int64_t r = 0; r < layout.row_count; ++r) {
+      const auto i = static_cast<std::size_t>(c * layout.row_count + r);
+      const auto x = body_->reference_position(c, r);
+      const double now = std::hypot(x[0] + u[0][i], x[1] + u[1][i]);
+      stretch[static_cast<std::size_t>(layout.first_row + r)] +=
+          std::llround(std::min(now / std::hypot(x[0], x[1]), 1e4) / quantum);
+    }
+  }
+  comm_.all_reduce(stretch, parallel::Reduce::sum);
+  double sum = 0;
+  for (const std::int64_t s : stretch) {
+    const double mean = static_cast<double>(s) * quantum / static_cast<double>(innermost_.size());
+    sum += std::pow(mean, -4);
+  }
+  return sum / static_cast<double>(layout.rows);
+}
+
 double venting_factor(double open_area, double supply_area) {
   const double ratio = open_area / supply_area;
   return 1 / (1 + ratio * ratio);

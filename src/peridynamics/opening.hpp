@@ -31,6 +31,22 @@ class OpeningGauge {
   std::size_t bins_;          ///< of angle, per row
 };
 
+/// How wide the lumen is, measured on the innermost particles of each axial row.
+class LumenGauge {
+ public:
+  LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);
+
+  /// Resistance to flow by Eq. (9) of the deformed vessel over that of the undeformed: the mean over rows of
+  /// (r0 / r)^4, where r / r0 is the mean stretch of the distance from the axis of the row's innermost
+  /// particles. The same for any ranks. Collective.
+  double resistance_factor() const;
+
+ private:
+  const Body* body_;
+  parallel::Communicator comm_;
+  std::vector<std::int64_t> innermost_;  ///< columns, ascending
+};
+
 /// Share of the scheduled pressure left in a vessel that leaks: blood enters through `supply_area` and leaves
 /// through `open_area`, both by the orifice law Q = Cd A sqrt(2 dP / rho); equal flows give
 /// P / P_0 = 1 / (1 + (A_open / A_supply)^2).

@@ -147,6 +147,11 @@ ParameterList declare(Parameters& p) {
   };
 }
 
+double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles) {
+  const double wall_area = std::numbers::pi * (outer_radius * outer_radius - inner_radius * inner_radius);
+  return std::cbrt(wall_area * length / particles);
+}
+
 EndCondition end_condition(const Parameters& p) {
   if (p.ends == "clamped") return EndCondition::clamped;
   if (p.ends == "sliding") return EndCondition::sliding;
@@ -155,13 +160,6 @@ EndCondition end_condition(const Parameters& p) {
 }
 
 namespace {
-
-/// Spacing that cuts the wall's volume into `particles` cubes, Sec. 3.3.
-double spacing_for(const Parameters& p, double particles) {
-  const double volume =
-      std::numbers::pi * (p.outer_radius * p.outer_radius - p.inner_radius * p.inner_radius) * p.length;
-  return std::cbrt(volume / particles);
-}
 
 void resolve_spacing(Parameters& p) {
   if (p.spacing && p.particles) {
@@ -172,7 +170,10 @@ void resolve_spacing(Parameters& p) {
     throw InputError("give discretisation.spacing (a length) or discretisation.particles (a number)",
                      "discretisation.spacing");
   }
-  if (!p.spacing) p.spacing = spacing_for(p, static_cast<double>(*p.particles));
+  if (!p.spacing) {
+    p.spacing =
+        constant_number_spacing(p.inner_radius, p.outer_radius, p.length, static_cast<double>(*p.particles));
+  }
   if (!p.horizon) p.horizon = p.horizon_ratio * *p.spacing;
   const double ratio = *p.horizon / *p.spacing;
   if (ratio < 2) {

@@ -54,6 +54,9 @@ ParameterList declare(Parameters& p);
 /// layer_thickness, end_length and supply_area. Throws InputError with the key at fault. Returns warnings.
 std::vector<std::string> resolve(Parameters& p);
 
+/// Spacing (m) that cuts the wall's volume into `particles` cubes, Sec. 3.3: (pi (r1^2 - r0^2) L / N)^(1/3).
+double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles);
+
 EndCondition end_condition(const Parameters& p);
 
 }  // namespace rhexis::peridynamics

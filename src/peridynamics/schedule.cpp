@@ -19,12 +19,15 @@ double interpolate(const std::vector<CurvePoint>& table, double time) {
 
 }  // namespace
 
+double schedule_share(const Parameters& p, double time_s) {
+  if (p.schedule == "step") return 1;
+  const double share = std::clamp(time_s / *p.ramp_time, 0.0, 1.0);
+  return p.schedule == "smooth_ramp" ? 0.5 * (1 - std::cos(std::numbers::pi * share)) : share;
+}
+
 double scheduled_pressure(const Parameters& p, double time_s) {
   if (p.schedule == "table") return interpolate(p.table, time_s);
-  if (p.schedule == "step") return p.pressure;
-  const double share = std::clamp(time_s / *p.ramp_time, 0.0, 1.0);
-  if (p.schedule == "smooth_ramp") return p.pressure * 0.5 * (1 - std::cos(std::numbers::pi * share));
-  return p.pressure * share;
+  return p.pressure * schedule_share(p, time_s);
 }
 
 }  // namespace rhexis::peridynamics

@@ -5,6 +5,9 @@
 
 namespace rhexis::peridynamics {
 
+/// Share of load.pressure that acts at a time, by any schedule but a table.
+double schedule_share(const Parameters& p, double time_s);
+
 /// P_net(t), Pa, by `load.schedule` of resolved parameters:
 ///   step         P
 ///   ramp         P t/T for t < T, then P

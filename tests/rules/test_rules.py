@@ -19,9 +19,10 @@ MAY_INCLUDE = {
     "peridynamics": {"parallel"},
     "network": {"parallel"},
     "hemodynamics": {"network", "parallel"},
+    "coupling": {"parallel", "network", "hemodynamics", "peridynamics"},
     "output": {"parallel"},
     "insitu": {"parallel"},
-    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "output", "insitu"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "output", "insitu"},
 }
 
 

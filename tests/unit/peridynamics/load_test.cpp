@@ -154,5 +154,43 @@ TEST(Venting, ClosedForms) {
   EXPECT_EQ(orifice_flow(0.62, 1e-6, -5, 1060), 0);
 }
 
+TEST(LumenGauge, ResistanceOfAWidenedVessel) {
+  for (const char* kind : {"lattice", "polar"}) {
+    Parameters p = test::paper_vessel();
+    p.cross_section = kind;
+    const BodySetup setup = test::setup_of(p, 1e-7);
+    const Lattice lattice = setup.lattice;
+    const auto body = make_body(setup, test::self());
+    const LumenGauge gauge(lattice, *body, test::self());
+    EXPECT_NEAR(gauge.resistance_factor(), 1, 1e-10) << kind;
+    const double half = static_cast<double>(lattice.rows) * lattice.row_spacing / 2;
+    // One half wider by a tenth, the other narrower by a fifth.
+    const auto u = test::sample(*body, [&](const std::array<double, 3>& x) {
+      const double widening = x[2] < half ? 0.1 : -0.2;
+      return std::array<double, 3>{widening * x[0], widening * x[1], 0};
+    });
+    const auto rest =
+        test::sample(*body, [](const std::array<double, 3>&) { return std::array<double, 3>{}; });
+    body->set_state(u, rest);
+    EXPECT_NEAR(gauge.resistance_factor(), (std::pow(1.1, -4) + std::pow(0.8, -4)) / 2, 1e-9) << kind;
+  }
+}
+
+TEST(AxialProfile, ScalesTheLoadRowByRow) {
+  Parameters p = test::paper_vessel();
+  p.ends = "free";
+  const BodySetup setup = test::setup_of(p, 1e-7);
+  const auto body = make_body(setup, test::self());
+  const auto rows = static_cast<std::size_t>(setup.lattice.rows);
+  const auto uniform = body->observe(1000).force_density;
+  std::vector<double> profile(rows);
+  for (std::size_t r = 0; r < rows; ++r) profile[r] = static_cast<double>(r) / static_cast<double>(rows);
+  body->set_axial_profile(profile);
+  const auto& sloped = body->observe(1000).force_density;
+  for (std::size_t i = 0; i < uniform[0].size(); ++i) {
+    for (int k = 0; k < 2; ++k) EXPECT_EQ(sloped[k][i], profile[i % rows] * uniform[k][i]) << i;
+  }
+}
+
 }  // namespace
 }  // namespace rhexis::peridynamics

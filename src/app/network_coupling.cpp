@@ -1,0 +1,264 @@
+#include "app/network_coupling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "app/network_files.hpp"
+#include "app/stopwatch.hpp"
+#include "app/vessel_run.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "coupling/bleeding.hpp"
+#include "parallel/together.hpp"
+
+namespace rhexis::app {
+namespace {
+
+constexpr const char* table_header =
+    "time_s,schedule,net_pressure_from_Pa,net_pressure_middle_Pa,net_pressure_to_Pa,opening_m2,leak_m3_s,"
+    "inflow_m3_s,outflow_m3_s,resistance_factor,imbalance\n";
+
+std::string mmhg(double pascal) {
+  return fmt::format("{:.4g} mmHg", pascal / 133.322387415);
+}
+
+}  // namespace
+
+NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, Console& console)
+    : c_(c), comm_(comm) {
+  {
+    const Stopwatch watch(network_s_);
+    tier_ = make_tier(c_, comm_);
+    tier_->prepare();
+    console.item("network", tier_->description());
+    solution_ = tier_->solve([&](const std::string& text) { console.line(text); });
+  }
+  const Stopwatch watch(exchange_s_);
+  parallel::together<InputError>(comm_, [&] {
+    if (solution_.queries.empty()) return;
+    chosen_ = solution_.queries.back();
+    solution_.queries.pop_back();
+  });
+  vessel_ = tier_->vessel(chosen_);
+  try {
+    parallel::together<InputError>(comm_, [&] {
+      if (!comm_.is_root()) return;
+      data_ = {chosen_.radius, chosen_.wall_thickness, chosen_.length};
+      choose_places();
+      // Flow without a leak: pressures fall linearly.
+      const double from = chosen_.pressure_from - parts_[0].acceleration;
+      const double to = chosen_.pressure_to - parts_[2].acceleration;
+      find_load({from, std::midpoint(from, to), to});
+      first_load_ = load_;
+      for (const double p : load_.pressure) {
+        if (p < 0) {
+          throw InputError(
+              "vessel '" + chosen_.name + "' has a net pressure of " + mmhg(p) +
+              " (Eq. 7): its collapse is not modelled; raise the pressures or lower what acts from "
+              "outside");
+        }
+      }
+    });
+  } catch (const InputError& error) {
+    throw input::located(error, c_.resolved);
+  }
+  // What the first rank knows of the vessel, all ranks need.
+  double values[] = {data_.radius,      data_.wall_thickness, data_.length,
+                     load_.pressure[0], load_.pressure[1],    load_.pressure[2]};
+  if (!comm_.is_root()) std::fill(std::begin(values), std::end(values), 0.0);
+  comm_.all_reduce(values, parallel::Reduce::sum);
+  data_ = {values[0], values[1], values[2]};
+  load_.pressure = {values[3], values[4], values[5]};
+  least_pressure_ = load_.pressure[1];
+  try {
+    piece_ = coupling::hand_over(data_, c_.coupling.resolution == "paper", c_.vessel);
+  } catch (const InputError& error) {
+    throw input::located(error, c_.resolved);
+  }
+  c_.vessel.pressure = pressure();
+  if (two_way()) c_.vessel.venting = "none";
+  resolve_wall(c_);
+  const double steps = *c_.coupling.window / c_.time_step;
+  if (two_way() && steps < 1) {
+    throw input::located(
+        InputError("shorter than a time step, " + quantity(c_.time_step, "s"), "coupling.window"),
+        c_.resolved);
+  }
+  steps_per_window_ = std::max(1L, std::lround(steps));
+  c = c_;
+}
+
+/// The parts of the net pressure that do not come from the heart.
+void NetworkCoupling::choose_places() {
+  const coupling::Compression compression = coupling::compression(c_.coupling);
+  const bool ranged = std::isfinite(compression.from) || std::isfinite(compression.to);
+  const hemodynamics::Hydrostatic weight = mechanics_of(c_).hydrostatic;
+  if (ranged && !chosen_.start)
+    throw InputError("needs coordinates of the network, and it has none", "body.compression_from");
+  if (ranged && solution_.lines.count() > 0) {
+    const FieldView x = solution_.lines.positions();
+    const double* axis = x.component[static_cast<std::size_t>(compression.axis)];
+    const auto [low, high] = std::minmax_element(axis, axis + x.count);
+    if (compression.to < *low || compression.from > *high) {
+      throw InputError(fmt::format("the compression lies outside the body, which reaches from {} m to {} m",
+                                   text(*low), text(*high)),
+                       "body.compression_from");
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    coupling::PressureParts& p = parts_[i];
+    p.tension = c_.coupling.tension;
+    p.atmosphere = c_.coupling.atmosphere;
+    p.compression = compression.pressure;
+    if (!chosen_.start) continue;
+    std::array<double, 3> x{};
+    for (std::size_t k = 0; k < 3; ++k)
+      x[k] = std::lerp((*chosen_.start)[k], (*chosen_.end)[k], 0.5 * static_cast<double>(i));
+    p.acceleration = weight.pressure(x[0], x[1], x[2]);
+    p.compression = compression.at(x);
+  }
+}
+
+void NetworkCoupling::find_load(const std::array<double, 3>& heart) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    parts_[i].heart = heart[i];
+    load_.pressure[i] = coupling::net_pressure(parts_[i]);
+  }
+}
+
+std::vector<double> NetworkCoupling::profile(std::int64_t rows, double row_spacing) const {
+  return coupling::axial_profile(load_, data_, piece_, rows, row_spacing);
+}
+
+void NetworkCoupling::open(const std::filesystem::path& directory) {
+  write_network(c_, solution_, directory, comm_);
+  if (!two_way()) return;
+  table_path_ = directory / "coupling.csv";
+  parallel::on_root<RunError>(comm_, [&] {
+    table_.open(table_path_);
+    if (!(table_ << table_header << std::flush)) throw RunError(table_path_.string() + ": cannot be written");
+  });
+}
+
+void NetworkCoupling::exchange(const Wall& wall) {
+  const Stopwatch watch(exchange_s_);
+  parallel::on_root<RunError>(comm_, [&] {
+    // All pressures of the network rise with the schedule; the network is linear in them, so it is solved at
+    // full pressure, with an orifice that lets as much of the flow there out as the real one does now.
+    coupling::Orifice orifice;
+    orifice.outside_pressure = middle_outside();
+    if (wall.schedule > 0) {
+      orifice.strength = peridynamics::orifice_flow(c_.vessel.discharge_coefficient, wall.opening, 1.0,
+                                                    c_.vessel.blood_density) /
+                         std::sqrt(wall.schedule);
+    }
+    leaked_ += leak_ * (wall.time_s - last_time_);
+    last_time_ = wall.time_s;
+    const coupling::VesselState now = coupling::bleed(*vessel_, wall.resistance_factor, orifice);
+    leak_ = wall.schedule * now.leak;
+    find_load({now.pressure_from, now.pressure_middle, now.pressure_to});
+    for (double& p : load_.pressure) p = std::max(p, 0.0);
+    worst_imbalance_ = std::max(worst_imbalance_, now.imbalance());
+    ++windows_;
+    table_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", wall.time_s, wall.schedule,
+                          wall.schedule * load_.pressure[0], wall.schedule * load_.pressure[1],
+                          wall.schedule * load_.pressure[2], wall.opening, leak_, wall.schedule * now.inflow,
+                          wall.schedule * now.outflow, wall.resistance_factor, now.imbalance())
+           << std::flush;
+    if (!table_) throw RunError(table_path_.string() + ": cannot be written");
+  });
+  double values[] = {load_.pressure[0], load_.pressure[1], load_.pressure[2], leak_};
+  if (!comm_.is_root()) std::fill(std::begin(values), std::end(values), 0.0);
+  comm_.all_reduce(values, parallel::Reduce::sum);
+  load_.pressure = {values[0], values[1], values[2]};
+  leak_ = values[3];
+  least_pressure_ = std::min(least_pressure_, load_.pressure[1]);
+}
+
+std::vector<Annotation> NetworkCoupling::annotations() const {
+  std::vector<Annotation> notes{{"leak", "m3/s", leak_},
+                                {"vessel_pressure", "Pa", load_.pressure[1]},
+                                {"chosen_radius", "m", data_.radius}};
+  if (chosen_.start) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      notes.push_back({fmt::format("chosen_start_{}", "xyz"[k]), "m", (*chosen_.start)[k]});
+      notes.push_back({fmt::format("chosen_end_{}", "xyz"[k]), "m", (*chosen_.end)[k]});
+    }
+  }
+  return notes;
+}
+
+output::NetworkResults NetworkCoupling::network_results() const {
+  return app::network_results(solution_);
+}
+
+nlohmann::ordered_json NetworkCoupling::results() const {
+  nlohmann::ordered_json json{{"vessel", to_json(chosen_)},
+                              {"mode", c_.coupling.mode},
+                              {"simulated_length_m", piece_.length},
+                              {"simulated_from_m", piece_.start},
+                              {"spacing_of_constant_N_m", piece_.paper_spacing},
+                              {"net_pressure_Pa", first_load_.pressure},
+                              {"network_s", network_s_},
+                              {"exchange_s", exchange_s_},
+                              {"windows", nullptr},
+                              {"net_pressure_at_end_Pa", nullptr},
+                              {"least_net_pressure_Pa", nullptr},
+                              {"leak_m3_s", nullptr},
+                              {"leaked_m3", nullptr},
+                              {"max_imbalance", nullptr}};
+  if (two_way()) {
+    json["windows"] = windows_;
+    json["net_pressure_at_end_Pa"] = load_.pressure;
+    json["least_net_pressure_Pa"] = least_pressure_;
+    json["leak_m3_s"] = leak_;
+    json["leaked_m3"] = leaked_;
+    json["max_imbalance"] = worst_imbalance_;
+  }
+  return json;
+}
+
+void NetworkCoupling::say_header(Console& console) const {
+  console.item(
+      "coupling",
+      fmt::format("vessel {} ({}{}), length {}, net pressure {} to {}", chosen_.name, kind_text(chosen_.kind),
+                  chosen_.generation < 0 ? "" : fmt::format(", generation {}", chosen_.generation),
+                  quantity(data_.length, "m"), mmhg(load_.pressure[0]), mmhg(load_.pressure[2])));
+  if (!piece_.whole) {
+    console.item(
+        "piece",
+        fmt::format("the constant-N rule leaves {:.1f} spacings across the wall ({}); simulated is the "
+                    "middle {} at 5 (coupling.resolution)",
+                    data_.wall_thickness / piece_.paper_spacing, quantity(piece_.paper_spacing, "m"),
+                    quantity(piece_.length, "m")));
+  }
+  if (two_way()) {
+    console.item("exchange", fmt::format("every {} ({} steps)",
+                                         quantity(static_cast<double>(steps_per_window_) * c_.time_step, "s"),
+                                         steps_per_window_));
+  }
+}
+
+void NetworkCoupling::say_summary(Console& console) const {
+  if (two_way()) {
+    console.item(
+        "bleeding",
+        fmt::format("{:.3g} mL/min at the end, {:.3g} uL in all; net pressure in the middle from {} to {}",
+                    leak_ * 6e7, leaked_ * 1e9, mmhg(first_load_.pressure[1]), mmhg(load_.pressure[1])));
+    console.item("conserved", fmt::format("blood to {:.1e} of the inflow at worst, {} exchanges",
+                                          worst_imbalance_, windows_));
+  }
+  console.item("network",
+               fmt::format("solved in {}; coupling took {} s", duration(network_s_), text(exchange_s_)));
+}
+
+Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm) {
+  Console console(comm.is_root(), options.quiet);
+  NetworkCoupling coupling(configuration, comm, console);
+  return VesselRun(std::move(configuration), options, comm, &coupling).run();
+}
+
+}  // namespace rhexis::app

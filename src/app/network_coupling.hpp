@@ -1,0 +1,81 @@
+/// A network and one of its vessels, coupled (Sec. 3.3): loads the wall, and in two-way coupling hears of its
+/// lumen and its leak.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/console.hpp"
+#include "app/network_tier.hpp"
+#include "app/run_options.hpp"
+#include "coupling/hand_over.hpp"
+#include "coupling/net_pressure.hpp"
+#include "output/run_record.hpp"
+
+namespace rhexis::app {
+
+class NetworkCoupling {
+ public:
+  /// Solves the network, and hands its vessel over into `c`, whose wall is then resolved. Nothing is written.
+  /// Collective. Throws InputError and RunError.
+  NetworkCoupling(Configuration& c, parallel::Communicator comm, Console& console);
+
+  bool two_way() const { return c_.coupling.mode == "two_way"; }
+  /// Writes the network's files, and begins coupling.csv where coupling is two-way.
+  void open(const std::filesystem::path& directory);
+
+  /// Largest net pressure in the vessel by the last exchange, Pa; `profile` is relative to it.
+  double pressure() const { return load_.largest(); }
+  std::vector<double> profile(std::int64_t rows, double row_spacing) const;
+
+  /// Whether a window ends at this step.
+  bool due(long step) const { return two_way() && step % steps_per_window_ == 0; }
+  /// What the wall is like at the end of a window.
+  struct Wall {
+    double time_s = 0;
+    double schedule = 0;           ///< share of the network's pressures that acts now
+    double opening = 0;            ///< m2
+    double resistance_factor = 1;  ///< of the deformed lumen
+  };
+  /// Solves the network anew around the vessel. Collective.
+  void exchange(const Wall& wall);
+  double leak() const { return leak_; }  ///< m3/s, by the last exchange
+
+  LineSource& lines() { return solution_.lines; }
+  std::vector<Annotation> annotations() const;
+  output::NetworkResults network_results() const;
+  nlohmann::ordered_json results() const;
+  void say_header(Console& console) const;
+  void say_summary(Console& console) const;
+
+ private:
+  void find_load(const std::array<double, 3>& heart);
+  void choose_places();
+  double middle_outside() const { return parts_[1].outside(); }
+
+  Configuration c_;  ///< with the vessel's geometry
+  parallel::Communicator comm_;
+  std::unique_ptr<NetworkTier> tier_;
+  NetworkSolution solution_;
+  QueriedVessel chosen_;
+  std::unique_ptr<coupling::VesselInNetwork> vessel_;
+  coupling::VesselData data_;
+  coupling::Piece piece_;
+  /// At the vessel's beginning, middle and end; the heart's by the last exchange.
+  std::array<coupling::PressureParts, 3> parts_{};
+  coupling::AxialLoad load_, first_load_;
+  long steps_per_window_ = 1, windows_ = 0;
+  double leak_ = 0, leaked_ = 0, last_time_ = 0;  ///< m3/s, m3, s
+  double worst_imbalance_ = 0, least_pressure_ = 0;
+  double network_s_ = 0, exchange_s_ = 0;
+  std::filesystem::path table_path_;
+  std::ofstream table_;
+};
+
+/// The coupled run, from its configuration to its results.
+Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm);
+
+}  // namespace rhexis::app

@@ -1,0 +1,121 @@
+#include "app/network_files.hpp"
+
+#include "app/network_tables.hpp"
+#include "app/version.hpp"
+#include "network/vtp_network.hpp"
+#include "output/atomic_file.hpp"
+#include "output/line_series.hpp"
+#include "parallel/together.hpp"
+
+namespace rhexis::app {
+namespace {
+
+void write_tables(const NetworkSolution& solution, const std::filesystem::path& directory,
+                  parallel::Communicator comm) {
+  parallel::on_root<RunError>(comm, [&] {
+    if (solution.statistics) {
+      output::write_atomically(directory / "generations.csv", generation_table(*solution.statistics));
+      output::write_atomically(directory / "histograms.csv", histogram_table(*solution.statistics));
+    }
+    if (!solution.table.empty()) {
+      output::write_atomically(directory / "vessels.csv", vessel_table(solution.table));
+    }
+  });
+}
+
+/// The first rank's lines, which are all but of a distributed network.
+void write_vtp(hemodynamics::VesselLines& lines, const std::filesystem::path& directory) {
+  const auto values = [&](const char* name) {
+    const FieldView view = lines.field(name);
+    return std::span<const double>(view.component[0], view.count);
+  };
+  const auto copy = [&](const char* name) {
+    return std::vector<double>(values(name).begin(), values(name).end());
+  };
+  const FieldView position = lines.positions();
+  network::Graph graph;
+  graph.junctions = position.count;
+  graph.x.assign(position.component[0], position.component[0] + position.count);
+  graph.y.assign(position.component[1], position.component[1] + position.count);
+  graph.z.assign(position.component[2], position.component[2] + position.count);
+  const auto ends = lines.connectivity();
+  for (std::size_t i = 0; i < ends.size(); i += 2) {
+    graph.from.push_back(static_cast<std::uint32_t>(ends[i]));
+    graph.to.push_back(static_cast<std::uint32_t>(ends[i + 1]));
+  }
+  graph.radius = copy("radius");
+  graph.length = copy("length");
+  for (const double kind : values("kind")) graph.kind.push_back(static_cast<network::VesselKind>(kind));
+  for (const double generation : values("generation")) {
+    graph.generation.push_back(static_cast<std::int8_t>(generation));
+  }
+  const network::NamedArray points[] = {{"pressure", values("pressure")}};
+  std::vector<network::NamedArray> cells;
+  for (const char* name : {"flow", "wall_shear_stress", "hoop_strain", "haematocrit", "vessel"}) {
+    cells.push_back({name, values(name)});
+  }
+  network::write_vtp_network(directory / "network.vtp", graph, points, cells);
+}
+
+void write_lines(const Configuration& c, NetworkSolution& solution, const std::filesystem::path& directory,
+                 parallel::Communicator comm) {
+  if (comm.all_reduce(static_cast<std::int64_t>(solution.lines.count()), parallel::Reduce::sum) == 0) return;
+  solution.lines.annotate({{"vessels", "1", static_cast<double>(solution.vessels)},
+                           {"shown", "1", static_cast<double>(solution.shown)},
+                           {"inflow", "m3/s", solution.inflow}});
+  const auto fields = solution.lines.fields();
+  output::LineSeriesPlan plan;
+  plan.directory = directory;
+  plan.title = c.title;
+  plan.version = version();
+  plan.fields.assign(fields.begin(), fields.end());
+  plan.steps = {0};
+  plan.precision = output::Precision::double_precision;
+  output::LineSeries(plan, solution.lines, comm).write(solution.lines);
+  if (c.network.vtp) parallel::on_root<RunError>(comm, [&] { write_vtp(solution.lines, directory); });
+}
+
+}  // namespace
+
+void write_network(const Configuration& c, NetworkSolution& solution, const std::filesystem::path& directory,
+                   parallel::Communicator comm) {
+  write_tables(solution, directory, comm);
+  write_lines(c, solution, directory, comm);
+}
+
+nlohmann::ordered_json to_json(const QueriedVessel& q) {
+  nlohmann::ordered_json json{{"name", q.name},
+                              {"vessel", q.vessel},
+                              {"kind", kind_text(q.kind)},
+                              {"generation", nullptr},
+                              {"radius_m", q.radius},
+                              {"length_m", q.length},
+                              {"wall_thickness_m", q.wall_thickness},
+                              {"flow_m3_s", q.flow},
+                              {"pressure_from_Pa", q.pressure_from},
+                              {"pressure_to_Pa", q.pressure_to}};
+  json["start_m"] = json["end_m"] = nullptr;
+  if (q.generation >= 0) json["generation"] = q.generation;
+  if (q.start) json["start_m"] = *q.start;
+  if (q.end) json["end_m"] = *q.end;
+  return json;
+}
+
+output::NetworkResults network_results(const NetworkSolution& solution) {
+  output::NetworkResults n;
+  n.vessels = solution.vessels;
+  n.junctions = solution.junctions;
+  n.inflow_m3_s = solution.inflow;
+  n.max_imbalance = solution.max_imbalance;
+  n.volume_m3 = solution.volume;
+  n.surface_m2 = solution.surface;
+  n.highest_pressure_Pa = solution.highest_pressure;
+  n.lowest_pressure_Pa = solution.lowest_pressure;
+  n.solver = solution.solver;
+  n.iterations = solution.iterations;
+  n.queries = nlohmann::ordered_json::array();
+  for (const QueriedVessel& q : solution.queries) n.queries.push_back(to_json(q));
+  return n;
+}
+
+}  // namespace rhexis::app

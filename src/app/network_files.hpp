@@ -1,0 +1,20 @@
+/// What a solved network leaves in the folder of results.
+#pragma once
+
+#include <filesystem>
+
+#include "app/network_tier.hpp"
+#include "output/run_record.hpp"
+
+namespace rhexis::app {
+
+/// generations.csv, histograms.csv, vessels.csv (what there is of them), network.xdmf and .h5, network.vtp.
+/// Collective. Throws RunError.
+void write_network(const Configuration& c, NetworkSolution& solution, const std::filesystem::path& directory,
+                   parallel::Communicator comm);
+
+/// As in run.json.
+output::NetworkResults network_results(const NetworkSolution& solution);
+nlohmann::ordered_json to_json(const QueriedVessel& q);
+
+}  // namespace rhexis::app

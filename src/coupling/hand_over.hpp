@@ -1,0 +1,57 @@
+/// From a vessel of the network to a peridynamic wall (Sec. 3.3).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "peridynamics/parameters.hpp"
+
+namespace rhexis::coupling {
+
+/// What the network knows of a vessel.
+struct VesselData {
+  double radius = 0, wall_thickness = 0, length = 0;  ///< m
+};
+
+/// Net pressures along a vessel, Pa: at its beginning, half way and at its end, linear in between.
+struct AxialLoad {
+  std::array<double, 3> pressure{};
+
+  /// The largest; loads are kept relative to it.
+  double largest() const;
+  /// At a share of the vessel's length, 0 to 1.
+  double at(double share) const;
+};
+
+/// The piece of a vessel that is simulated.
+struct Piece {
+  double start = 0, length = 0;  ///< m, along the vessel
+  double spacing = 0;            ///< m
+  bool whole = true;
+  double paper_spacing = 0;  ///< m, of the constant-N rule
+};
+
+/// Particles of a wall where the input does not say.
+inline constexpr std::int64_t usual_particles = 55000;
+/// Spacings across the wall below which the constant-N rule gives way, and what it gives way to.
+inline constexpr double least_across = 4, enough_across = 5;
+/// Rows of particles that a piece must have.
+inline constexpr double least_rows = 10;
+
+/// The spacing (pi (r1^2 - r0^2) L / N)^(1/3) for the whole vessel (Sec. 3.3), or, where that is too coarse
+/// and `always_paper` is not set, the piece in the middle that N particles fill. Throws InputError
+/// (discretisation.particles) where fewer than `least_rows` rows are left.
+Piece choose_piece(const VesselData& vessel, std::int64_t particles, bool always_paper);
+
+/// Geometry and discretisation of the piece, into `p`, which is not resolved yet. A spacing that `p` has is
+/// kept, for the whole vessel.
+Piece hand_over(const VesselData& vessel, bool always_paper, peridynamics::Parameters& p);
+
+/// The load at each of the rows of particles of the piece, relative to the largest: 1 where the load is
+/// uniform, to the last bit.
+std::vector<double> axial_profile(const AxialLoad& load, const VesselData& vessel, const Piece& piece,
+                                  std::int64_t rows, double row_spacing);
+
+}  // namespace rhexis::coupling

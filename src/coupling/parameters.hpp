@@ -1,0 +1,29 @@
+/// Input keys of the sections coupling and body.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/parameter.hpp"
+#include "coupling/net_pressure.hpp"
+
+namespace rhexis::coupling {
+
+struct Parameters {
+  std::string vessel;
+  std::string mode;              ///< "one_way" | "two_way"
+  std::optional<double> window;  ///< s
+  std::string resolution;        ///< "auto" | "paper"
+
+  double tension = 0, atmosphere = 0, compression = 0;  ///< Pa
+  std::string compression_axis;
+  std::optional<double> compression_from, compression_to;  ///< m
+};
+
+ParameterList declare(Parameters& p);
+
+/// Of the body's section.
+Compression compression(const Parameters& p);
+
+}  // namespace rhexis::coupling

@@ -1,0 +1,82 @@
+// What a vessel's wall is made of, and how its load runs along it.
+#include "coupling/hand_over.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+
+namespace rhexis::coupling {
+namespace {
+
+const VesselData paper{1.5e-3, 0.5e-3, 10e-3};  // Table 2, of 10 mm
+
+double particles_of(const VesselData& v, const Piece& piece) {
+  const double outer = v.radius + v.wall_thickness;
+  return std::numbers::pi * (outer * outer - v.radius * v.radius) * piece.length / std::pow(piece.spacing, 3);
+}
+
+TEST(HandOver, ConstantNumberOfParticles) {
+  const Piece piece = choose_piece(paper, 54973, false);
+  EXPECT_TRUE(piece.whole);
+  EXPECT_NEAR(piece.spacing, 100e-6, 0.1e-6);
+  EXPECT_NEAR(particles_of(paper, piece), 54973, 1e-6);
+  EXPECT_EQ(piece.start, 0);
+  EXPECT_EQ(piece.length, paper.length);
+}
+
+TEST(HandOver, APieceWhereTheRuleIsTooCoarse) {
+  const VesselData aorta{12.5e-3, 1.5e-3, 0.4};
+  const Piece paper_rule = choose_piece(aorta, 55000, true), piece = choose_piece(aorta, 55000, false);
+  EXPECT_LT(aorta.wall_thickness / paper_rule.spacing, 4);
+  EXPECT_TRUE(paper_rule.whole);
+  EXPECT_FALSE(piece.whole);
+  EXPECT_NEAR(aorta.wall_thickness / piece.spacing, 5, 1e-12);
+  EXPECT_NEAR(particles_of(aorta, piece), 55000, 1e-6);
+  EXPECT_NEAR(piece.start + piece.length / 2, aorta.length / 2, 1e-15);
+  EXPECT_EQ(piece.paper_spacing, paper_rule.spacing);
+}
+
+TEST(HandOver, TooFewRows) {
+  EXPECT_THROW(choose_piece({1.5e-3, 0.5e-3, 0.2e-3}, 55000, false), InputError);  // a ring
+  EXPECT_THROW(choose_piece({12.5e-3, 0.1e-3, 0.4}, 55000, false), InputError);    // a film
+}
+
+TEST(HandOver, KeepsTheUsersSpacing) {
+  peridynamics::Parameters p;
+  p.spacing = 80e-6;
+  const Piece piece = hand_over(paper, false, p);
+  EXPECT_TRUE(piece.whole);
+  EXPECT_EQ(p.spacing, 80e-6);
+  EXPECT_EQ(p.inner_radius, 1.5e-3);
+  EXPECT_EQ(p.outer_radius, 2e-3);
+  EXPECT_EQ(p.length, 10e-3);
+}
+
+TEST(AxialProfile, IsOneToTheLastBitUnderUniformLoad) {
+  const double p = 12345.678901;
+  const Piece piece = choose_piece(paper, 55000, false);
+  for (const double share : axial_profile({{p, p, p}}, paper, piece, 97, piece.spacing))
+    EXPECT_EQ(share, 1.0);
+}
+
+TEST(AxialProfile, IsLinearBetweenEndsAndMiddle) {
+  const AxialLoad load{{400, 200, 100}};
+  EXPECT_EQ(load.largest(), 400);
+  EXPECT_EQ(load.at(0), 400);
+  EXPECT_EQ(load.at(0.25), 300);
+  EXPECT_EQ(load.at(0.5), 200);
+  EXPECT_EQ(load.at(0.75), 150);
+  EXPECT_EQ(load.at(1), 100);
+  Piece piece;
+  piece.start = 2e-3;
+  piece.length = 6e-3;
+  const auto profile = axial_profile(load, paper, piece, 6, 1e-3);
+  EXPECT_NEAR(profile.front(), (400 - 0.25 * 400) / 400, 1e-15);  // at 2.5 of 10 mm
+  EXPECT_NEAR(profile.back(), 150.0 / 400, 1e-15);                // at 7.5 mm
+}
+
+}  // namespace
+}  // namespace rhexis::coupling
