@@ -116,9 +116,15 @@ class NetworkPicture:
 
     def save(self, path, network, time_s):
         """Draws the data of this moment. Collective."""
+        rows = self.rows(network, time_s)
+        if rows is not None:
+            write_png(path, rows)
+
+    def rows(self, network, time_s):
+        """The picture of this moment [HEIGHT, WIDTH, 3] on the first rank, None on the others. Collective."""
         table = gather(vessels_of(network))
         if table is None:
-            return
+            return None
         if len(table) == 0:
             raise ValueError("the network has no vessels to draw")
         start, end, radius = table[:, :3].astype(float), table[:, 3:6].astype(float), table[:, 6].astype(float)
@@ -129,13 +135,16 @@ class NetworkPicture:
         least = self.framing.least_radius(start, end, true)
         mesh = TubeMesh(start, end, numpy.maximum(true, least))
         self.sheet.clear()
+        # A coupled network is drawn as it was solved; what its wall does to it is told of the vessel alone.
+        self.coupled = field_value(network, "chosen_start_x") is not None
         self._draw_kind_or_flow(mesh, table[:, 7].astype(int), numpy.abs(table[:, 8].astype(float)))
         self._draw_pressure(mesh, table[:, 9:11] / MMHG)
         self._write_title(network, len(table), time_s)
+        self._mark_chosen(network)
         note = "radii: true" + (f", at least {least:g} px" if true.min() < least else "")
         self.sheet.scale_bar(MARGIN, 22, self.framing.pixels_per_m, about=110)
         self.sheet.text(WIDTH - MARGIN, 10, note, align="right")
-        self._render(path)
+        return self._render()
 
     def _draw_kind_or_flow(self, mesh, kind, flow):
         _, (left, y, width) = self.framing.layout[0]
@@ -173,7 +182,7 @@ class NetworkPicture:
         table.SetRange(ticks[0], ticks[-1])
         self._show(1, mesh.surface(pressure[mesh.vessel, mesh.at_end].astype(numpy.float32)), table)
         places = [((tick - ticks[0]) / (ticks[-1] - ticks[0]), f"{tick:g}") for tick in ticks]
-        self.sheet.colour_bar(left, y, width, table, "pressure / mmHg", places)
+        self.sheet.colour_bar(left, y, width, table, "pressure with the wall intact / mmHg" if self.coupled else "pressure / mmHg", places)
 
     def _write_title(self, network, drawn, time_s):
         shown, vessels = field_value(network, "shown") or drawn, field_value(network, "vessels")
@@ -183,9 +192,20 @@ class NetworkPicture:
         if inflow is not None:
             unit, name = flow_unit(abs(inflow))
             title += f"      inflow {float(f'{inflow / unit:.3g}'):g} {name}"
-        if time_s > 0:
+        if time_s > 0 and not self.coupled:
             title += f"      t = {time_s:.4g} s" if time_s >= 1 else f"      t = {1e3 * time_s:.4g} ms"
         self.sheet.text(0.5 * WIDTH, HEIGHT - 32, title, LARGE, align="centre")
+
+    def _mark_chosen(self, network):
+        """A ring around the vessel whose wall is simulated, where the network is coupled with one."""
+        ends = [[field_value(network, f"chosen_{end}_{axis}") for axis in "xyz"] for end in ("start", "end")]
+        if None in ends[0] + ends[1]:
+            return
+        place = self.framing.project(numpy.array(ends))
+        across = numpy.linalg.norm((place[1] - place[0])[:2])
+        for left, bottom, width, height in (view for view, _ in self.framing.layout):
+            middle = numpy.array([left + 0.5 * width, bottom + 0.5 * height]) + place.mean(axis=0)[:2]
+            self.sheet.ring(*middle, max(10.0, 0.6 * across))
 
     def _make_window(self):
         self.window = vtkRenderWindow()
@@ -226,14 +246,14 @@ class NetworkPicture:
         view.GetActiveCamera().SetPosition(0.0, 0.0, high + 10)
         view.GetActiveCamera().SetClippingRange(5, high - low + 20)
 
-    def _render(self, path):
+    def _render(self):
         self.window.Render()
         pixels = vtkUnsignedCharArray()
         width, height = WIDTH * FINENESS, HEIGHT * FINENESS
         self.window.GetPixelData(0, 0, width - 1, height - 1, 0, pixels)
         fine = vtk_to_numpy(pixels).reshape(height, width, 3)[::-1]
         total = sum(fine[i::FINENESS, j::FINENESS].astype(numpy.uint16) for i in range(FINENESS) for j in range(FINENESS))
-        write_png(path, ((total + FINENESS**2 // 2) // FINENESS**2).astype(numpy.uint8))
+        return ((total + FINENESS**2 // 2) // FINENESS**2).astype(numpy.uint8)
 
 
 def flow_unit(flow):

@@ -40,8 +40,12 @@ class Sheet:
 
     def boxes(self, boxes, colours):
         """Rectangles (left, bottom, right, top), each of its colour (0 ... 1)."""
-        left, bottom, right, top = self.fineness * numpy.array(boxes, float).T
+        left, bottom, right, top = numpy.array(boxes, float).T
         corners = numpy.stack([left, bottom, right, bottom, right, top, left, top], axis=1).reshape(-1, 2)
+        self._quadrangles(corners, colours)
+
+    def _quadrangles(self, corners, colours):
+        corners = self.fineness * corners
         points = vtkPoints()
         points.SetData(numpy_to_vtk(numpy.column_stack([corners, numpy.zeros(len(corners))]), deep=True))
         numbers = numpy.arange(len(corners) + 1, dtype=numpy.int32)
@@ -57,6 +61,14 @@ class Sheet:
         actor = vtkActor2D()
         actor.SetMapper(mapper)
         self.layer.AddActor2D(actor)
+
+    def ring(self, x, y, radius):
+        """A circle with a white edge, to be seen on any colour."""
+        angles = numpy.linspace(0, 2 * math.pi, 65)
+        for inner, outer, colour in ((radius - 2.5, radius + 2.5, (1.0, 1.0, 1.0)), (radius - 1.25, radius + 1.25, INK)):
+            edge = [numpy.column_stack([x + r * numpy.cos(angles), y + r * numpy.sin(angles)]) for r in (inner, outer)]
+            corners = numpy.stack([edge[0][:-1], edge[1][:-1], edge[1][1:], edge[0][1:]], axis=1).reshape(-1, 2)
+            self._quadrangles(corners, [colour] * (len(angles) - 1))
 
     def key(self, centre, y, entries):
         """A row of coloured squares with their meaning: entries (name, colour), centred about `centre`."""

@@ -86,6 +86,12 @@ class VesselPicture:
 
     def save(self, path, particles, step, time_s, pressure_pa=None):
         """Draws the data of this moment. Collective."""
+        rows = self.rows(particles, step, time_s, pressure_pa)
+        if rows is not None:
+            write_png(path, rows)
+
+    def rows(self, particles, step, time_s, pressure_pa=None, note=""):
+        """The picture of this moment [HEIGHT, WIDTH, 3] on the first rank, None on the others. Collective."""
         position, damage = column(particles, "position"), column(particles, "damage")
         displacement_mm = 1e3 * numpy.sqrt((column(particles, "displacement") ** 2).sum(axis=1))
         top = self._displacement_range(displacement_mm)
@@ -93,18 +99,18 @@ class VesselPicture:
         table = numpy.column_stack([position[seen], displacement_mm[seen], damage[seen]]).astype(numpy.float32)
         table = gather(table)
         if table is None:
-            return
+            return None
         if self.window is None:
             self._make_window()
         pressure = "" if pressure_pa is None else f"      p = {pressure_pa / 1e3:.1f} kPa"
-        self.moment.SetInput(f"t = {time_s * 1e3:.3f} ms{pressure}")
+        self.moment.SetInput(f"t = {time_s * 1e3:.3f} ms{pressure}{note}")
         self.step.SetInput(f"step {step}")
         self._set_displacement_range(top)
         self._set_particles(table)
         self.window.Render()
         pixels = vtkUnsignedCharArray()
         self.window.GetPixelData(0, 0, WIDTH - 1, HEIGHT - 1, 0, pixels)
-        write_png(path, vtk_to_numpy(pixels).reshape(HEIGHT, WIDTH, 3)[::-1])
+        return vtk_to_numpy(pixels).reshape(HEIGHT, WIDTH, 3)[::-1]
 
     def _seen(self, position):
         """The numbers of the particles that no others of this rank hide from the camera, and perhaps a few more.

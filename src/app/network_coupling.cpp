@@ -178,17 +178,19 @@ void NetworkCoupling::exchange(const Wall& wall) {
   least_pressure_ = std::min(least_pressure_, load_.pressure[1]);
 }
 
-std::vector<Annotation> NetworkCoupling::annotations() const {
-  std::vector<Annotation> notes{{"leak", "m3/s", leak_},
-                                {"vessel_pressure", "Pa", load_.pressure[1]},
-                                {"chosen_radius", "m", data_.radius}};
+LineSource& NetworkCoupling::lines() {
+  std::vector<Annotation> notes{{"vessels", "1", static_cast<double>(solution_.vessels)},
+                                {"shown", "1", static_cast<double>(solution_.shown)},
+                                {"inflow", "m3/s", solution_.inflow},
+                                {"leak", "m3/s", leak_}};
   if (chosen_.start) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      notes.push_back({fmt::format("chosen_start_{}", "xyz"[k]), "m", (*chosen_.start)[k]});
-      notes.push_back({fmt::format("chosen_end_{}", "xyz"[k]), "m", (*chosen_.end)[k]});
-    }
+    constexpr const char* names[] = {"chosen_start_x", "chosen_start_y", "chosen_start_z",
+                                     "chosen_end_x",   "chosen_end_y",   "chosen_end_z"};
+    for (std::size_t k = 0; k < 6; ++k)
+      notes.push_back({names[k], "m", (k < 3 ? *chosen_.start : *chosen_.end)[k % 3]});
   }
-  return notes;
+  solution_.lines.annotate(std::move(notes));
+  return solution_.lines;
 }
 
 output::NetworkResults NetworkCoupling::network_results() const {

@@ -44,8 +44,8 @@ class NetworkCoupling {
   void exchange(const Wall& wall);
   double leak() const { return leak_; }  ///< m3/s, by the last exchange
 
-  LineSource& lines() { return solution_.lines; }
-  std::vector<Annotation> annotations() const;
+  /// The network as it is shown: with the vessel's place, pressure and leak.
+  LineSource& lines();
   output::NetworkResults network_results() const;
   nlohmann::ordered_json results() const;
   void say_header(Console& console) const;
