@@ -189,7 +189,7 @@ extern "C" void rhexis_vtp_write(const std::string& path, const Lines& lines, st
   writer->SetFileName(path.c_str());
   writer->SetInputData(poly_data_of(lines));
   writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
+  writer->EncodeAppendedDataOn();  // raw bytes are not XML: newer versions of expat refuse them
   writer->SetHeaderTypeToUInt64();
   const bool written = writer->Write() != 0 && writer->GetErrorCode() == 0;
   if (!silence.window->errors.empty()) {
