@@ -188,8 +188,8 @@ extern "C" void rhexis_vtp_write(const std::string& path, const Lines& lines, st
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetFileName(path.c_str());
   writer->SetInputData(poly_data_of(lines));
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOn();  // raw bytes are not XML: newer versions of expat refuse them
+  writer
+      ->SetDataModeToBinary();  // in place: VTK's reader of appended data fails with newer versions of expat
   writer->SetHeaderTypeToUInt64();
   const bool written = writer->Write() != 0 && writer->GetErrorCode() == 0;
   if (!silence.window->errors.empty()) {
