@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "app/network_tables.hpp"
-#include "app/pictures.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -25,12 +24,7 @@ Ending NetworkRun::run() {
   try {
     open_directory(output::EarlierResults::remove);
     open_record();
-    {
-      const Stopwatch watch(spent_.insitu);
-      Pictures pictures = start_pictures(c_.insitu, options_.directory, comm_);
-      pipeline_ = std::move(pictures.pipeline);
-      renderer_ = std::move(pictures.description);
-    }
+    start_insitu();
     say_header();
     solve();
     {

@@ -25,7 +25,7 @@ void VesselRun::say_header() {
                 fmt::format("{} ({}), layer {}, venting {}",
                             quantity(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
                             v.schedule, v.layer, v.venting));
-  say_surroundings(renderer_);
+  say_surroundings();
 }
 
 void VesselRun::say_summary() {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "app/run_base.hpp"
-#include "insitu/pipeline.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
 #include "peridynamics/body.hpp"
@@ -27,7 +26,6 @@ class VesselRun : private RunBase {
   std::string unstable_message(long step, const std::string& sign) const;
   void build();
   void open_results();
-  void start_insitu();
   void say_header();
   void time_loop();
   void observe(long step, bool with_output, bool with_pictures);
@@ -38,6 +36,7 @@ class VesselRun : private RunBase {
   void read_checkpoint();
   void finish_pictures();
   void say_summary();
+  std::optional<std::int64_t> bond_evaluations() const override { return body_->bond_evaluations(); }
   double pressure_at(long step) const;
   double time_at(long step) const { return static_cast<double>(step) * c_.time_step; }
 
@@ -45,8 +44,6 @@ class VesselRun : private RunBase {
   std::unique_ptr<peridynamics::Body> body_;
   std::unique_ptr<peridynamics::ParticleSource> source_;
   std::unique_ptr<peridynamics::OpeningGauge> gauge_;
-  std::unique_ptr<insitu::Pipeline> pipeline_;
-  std::string renderer_;  ///< who draws, or why nobody does
   std::optional<output::PointSeries> series_;
   std::optional<output::History> history_;
 
