@@ -99,15 +99,24 @@ def plot(path, recursion, tier_rows, solvers):
     import matplotlib.pyplot as plt
 
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2))
+
+    def show(points, marker, label):
+        """Points (generations, ns per vessel, error), each with its generations written beside it."""
+        line = left.plot([time for _, time, _ in points], [max(error, 1e-16) for _, _, error in points], marker, label=label)[0]
+        height = 8 + 11 * len(left.lines)  # errors are much alike: a height for each tier's labels
+        for k, time, error in points:
+            left.annotate(f"k = {k}", (time, max(error, 1e-16)), xytext=(0, -height), textcoords="offset points",
+                          fontsize=8, ha="center", color=line.get_color())
+
+    known = [r for r in recursion if r["flow_error"] is not None]
+    show([(r["generations"], r["up_ns"] + r["down_ns"], r["flow_error"]) for r in known], "o",
+         "recursion with statistics (against long double)")
     for tier, ranks, marker in (("explicit", 1, "s"), ("distributed", 1, "^"), ("distributed", 2, "v")):
         points = [r for r in tier_rows if (r["tier"], r["ranks"]) == (tier, ranks)]
-        left.plot([r["ns_per_vessel"] for r in points], [max(r["flow"], 1e-17) for r in points], marker,
-                  label=f"{tier}, {ranks} rank{'s' if ranks > 1 else ''} (against recursion)")
-    known = [r for r in recursion if r["flow_error"] is not None]
-    left.plot([r["up_ns"] + r["down_ns"] for r in known], [r["flow_error"] for r in known], "o",
-              label="recursion with statistics (against long double)")
-    left.set(xscale="log", yscale="log", xlabel="time / ns per vessel", ylabel="largest relative error of a flow",
-             title="Tree pairs by tier")
+        show([(r["k"], r["ns_per_vessel"], r["flow"]) for r in points], marker,
+             f"{tier}, {ranks} rank{'s' if ranks > 1 else ''} (against recursion)")
+    left.set(xscale="log", yscale="log", ylim=(1e-16, 1e-13), xlabel="time / ns per vessel",
+             ylabel="largest relative error of a flow", title="Tree pairs of k generations by tier")
     left.legend(fontsize=8)
     for name in dict.fromkeys(r["solver"] for r in solvers):
         points = [r for r in solvers if r["solver"] == name]

@@ -55,7 +55,10 @@ class DistributedTier : public NetworkTier {
     if (flow.iterations > 0) s.iterations = flow.iterations;
     add_weight(part_.local, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
-    for (const std::string& name : c_.network.query) s.queries.push_back(query(name, flow));
+    for (std::size_t i = 0; i < queried_.size(); ++i) {
+      s.queries.push_back(query(queried_[i], flow));
+      s.queries.back().name = c_.network.query[i];
+    }
     show(flow, s);
     return s;
   }
@@ -70,6 +73,8 @@ class DistributedTier : public NetworkTier {
     auto part = tree.materialise_part(comm_.rank(), comm_.size());
     part_ = {std::move(part.graph), std::move(part.junction_id)};
     vessel_id_ = std::move(part.vessel_id);
+    for (const std::string& name : c_.network.query)
+      queried_.push_back(static_cast<std::int64_t>(tree.id_of(name)));
     const std::int64_t outlet = std::int64_t{1} << c_.tree.generations;
     const auto local = [&](std::int64_t id) {
       return std::find(part_.junction_id.begin(), part_.junction_id.end(), id) - part_.junction_id.begin();
@@ -84,7 +89,7 @@ class DistributedTier : public NetworkTier {
   void take_slice_of_file() {
     const network::BoundedGraph whole = make_graph_network(c_, mechanics_.hydrostatic);
     hemodynamics::check_flow_problem(whole.graph, whole.conditions, solver_options(c_));
-    for (const std::string& name : c_.network.query) find_vessel(c_, whole.graph, name);
+    for (const std::string& name : c_.network.query) queried_.push_back(find_vessel(c_, whole.graph, name));
     const auto share = [&](int r) {
       return whole.graph.vessels() * static_cast<std::size_t>(r) / static_cast<std::size_t>(comm_.size());
     };
@@ -150,22 +155,14 @@ class DistributedTier : public NetworkTier {
   }
 
   /// By the rank that has the vessel.
-  QueriedVessel query(const std::string& name, const hemodynamics::GraphFlow& flow) const {
-    std::int64_t local = -1;
-    if (c_.network.source == "tree") {
-      const auto id = static_cast<std::int64_t>(network::TreePair::id_of(name, c_.tree.generations));
-      const auto found = std::find(vessel_id_.begin(), vessel_id_.end(), id);
-      if (found != vessel_id_.end()) local = found - vessel_id_.begin();
-    } else {
-      const auto& names = part_.local.vessel_name;
-      const auto found = std::find(names.begin(), names.end(), name);
-      if (found != names.end()) local = found - names.begin();
-    }
+  QueriedVessel query(std::int64_t id, const hemodynamics::GraphFlow& flow) const {
+    const auto found = std::find(vessel_id_.begin(), vessel_id_.end(), id);
     QueriedVessel q;
     double values[9] = {};
-    if (local >= 0) {
-      q = describe_vessel(part_.local, flow, static_cast<std::uint32_t>(local), mechanics_);
-      const double own[9] = {static_cast<double>(vessel_id_[static_cast<std::size_t>(local)]),
+    if (found != vessel_id_.end()) {
+      q = describe_vessel(part_.local, flow, static_cast<std::uint32_t>(found - vessel_id_.begin()),
+                          mechanics_);
+      const double own[9] = {static_cast<double>(id),
                              static_cast<double>(q.kind),
                              static_cast<double>(q.generation),
                              q.radius,
@@ -177,7 +174,6 @@ class DistributedTier : public NetworkTier {
       std::copy_n(own, 9, values);
     }
     comm_.all_reduce(values, parallel::Reduce::sum);
-    q.name = name;
     q.vessel = static_cast<std::int64_t>(values[0]);
     q.kind = static_cast<network::VesselKind>(values[1]);
     q.generation = static_cast<int>(values[2]);
@@ -209,6 +205,7 @@ class DistributedTier : public NetworkTier {
   hemodynamics::DistributedGraph part_;
   std::vector<std::int64_t> vessel_id_;  ///< [V] number in the whole
   std::vector<network::Condition> conditions_;
+  std::vector<std::int64_t> queried_;  ///< numbers in the whole
 };
 
 }  // namespace

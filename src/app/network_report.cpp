@@ -34,7 +34,7 @@ void NetworkRun::say_header() {
                     : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", h.viscosity_law,
                                   quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
                                   h.phase_separation ? ", dividing at bifurcations" : ""));
-  say_surroundings(renderer_);
+  say_surroundings();
 }
 
 void NetworkRun::say_summary() {

@@ -1,7 +1,8 @@
 #include "app/network_run.hpp"
 
+#include <fmt/format.h>
+
 #include "app/network_files.hpp"
-#include "app/pictures.hpp"
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
 
@@ -18,12 +19,7 @@ Ending NetworkRun::run() {
   try {
     open_directory(output::EarlierResults::remove);
     open_record();
-    {
-      const Stopwatch watch(spent_.insitu);
-      Pictures pictures = start_pictures(c_.insitu, options_.directory, comm_);
-      pipeline_ = std::move(pictures.pipeline);
-      renderer_ = std::move(pictures.description);
-    }
+    start_insitu();
     say_header();
     solve();
     {

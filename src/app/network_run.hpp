@@ -5,7 +5,6 @@
 
 #include "app/network_tier.hpp"
 #include "app/run_base.hpp"
-#include "insitu/pipeline.hpp"
 
 namespace rhexis::app {
 
@@ -23,8 +22,6 @@ class NetworkRun : private RunBase {
   void say_summary();
 
   std::unique_ptr<NetworkTier> tier_;
-  std::unique_ptr<insitu::Pipeline> pipeline_;
-  std::string renderer_;
   NetworkSolution solution_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/pictures.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -34,6 +35,13 @@ void RunBase::note_failure(const std::string& reason) {
   }
 }
 
+void RunBase::start_insitu() {
+  const Stopwatch watch(spent_.insitu);
+  Pictures pictures = start_pictures(c_.insitu, options_.directory, comm_);
+  pipeline_ = std::move(pictures.pipeline);
+  renderer_ = std::move(pictures.description);
+}
+
 output::Performance RunBase::performance() const {
   output::Performance p;
   p.ranks = comm_.size();
@@ -42,8 +50,8 @@ output::Performance RunBase::performance() const {
   p.solve_s = spent_.solve;
   p.insitu_s = spent_.insitu;
   p.output_s = spent_.output;
-  if (bond_evaluations_) {
-    p.bond_evaluations = comm_.all_reduce(*bond_evaluations_, parallel::Reduce::sum);
+  if (const auto own = bond_evaluations()) {
+    p.bond_evaluations = comm_.all_reduce(*own, parallel::Reduce::sum);
     if (spent_.solve > 0) p.bond_evaluations_per_s = static_cast<double>(*p.bond_evaluations) / spent_.solve;
     p.flop = static_cast<double>(*p.bond_evaluations) * peridynamics::flop_per_bond;
   }
@@ -59,10 +67,10 @@ void RunBase::say_input() {
   console_.item("input", c_.file);
 }
 
-void RunBase::say_surroundings(const std::string& renderer) {
+void RunBase::say_surroundings() {
   console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
                                         parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
-  console_.item("pictures", renderer);
+  console_.item("pictures", renderer_);
   console_.item("results", options_.directory.string());
 }
 

@@ -1,12 +1,15 @@
 /// What every run has, whatever it simulates: options, terminal, clock, results and their record.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "app/configuration.hpp"
 #include "app/console.hpp"
 #include "app/run_options.hpp"
+#include "insitu/pipeline.hpp"
 #include "output/directory.hpp"
 #include "output/run_record.hpp"
 #include "parallel/communicator.hpp"
@@ -20,19 +23,24 @@ class RunBase {
   };
 
   RunBase(Configuration configuration, RunOptions options, parallel::Communicator comm);
+  ~RunBase() = default;
 
   /// Makes the folder of results ready; `open_record` begins run.json in it.
   void open_directory(output::EarlierResults earlier);
   void open_record();
   /// Tells run.json why the run failed; a disk that is full for this too must not hide the reason.
   void note_failure(const std::string& reason);
+  /// Starts ParaView, or settles why there will be no pictures. Collective. Throws RunError for a bad script.
+  void start_insitu();
   /// Collective.
   output::Performance performance() const;
+  /// Directed bond evaluations so far, on this rank; none where no wall is simulated.
+  virtual std::optional<std::int64_t> bond_evaluations() const { return {}; }
 
   /// First lines of the header: program, title, warnings, input.
   void say_input();
-  /// Last lines of the header: ranks and threads, `renderer` (who draws, or why nobody does), results.
-  void say_surroundings(const std::string& renderer);
+  /// Last lines of the header: ranks and threads, who draws, results.
+  void say_surroundings();
   /// Last lines of the summary.
   void say_cost(const output::Performance& p);
 
@@ -43,10 +51,11 @@ class RunBase {
   std::optional<output::RunRecord> record_;
   output::Results results_;
   Spent spent_;
-  std::optional<std::int64_t> bond_evaluations_;  ///< directed, of this rank
+  std::unique_ptr<insitu::Pipeline> pipeline_;  ///< null: no pictures
 
  private:
-  double started_;  ///< s, of the clock
+  std::string renderer_;  ///< who draws, or why nobody does
+  double started_;        ///< s, of the clock
 };
 
 }  // namespace rhexis::app

@@ -26,7 +26,7 @@ void VesselRun::say_header() {
                             quantity(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
                             v.schedule, v.layer, v.venting));
   if (coupling_ != nullptr) coupling_->say_header(console_);
-  say_surroundings(renderer_);
+  say_surroundings();
 }
 
 void VesselRun::say_summary() {

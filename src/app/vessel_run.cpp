@@ -7,7 +7,6 @@
 
 #include "app/interrupt.hpp"
 #include "app/movie.hpp"
-#include "app/pictures.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -114,13 +113,6 @@ void VesselRun::open_results() {
                [&](long step) { return step > first_step_; });
   series_.emplace(plan, body_->layout(), comm_);
   series_->write_reference(source_->reference_positions());
-}
-
-void VesselRun::start_insitu() {
-  const Stopwatch watch(spent_.insitu);
-  Pictures pictures = start_pictures(c_.insitu, options_.directory, comm_);
-  pipeline_ = std::move(pictures.pipeline);
-  renderer_ = std::move(pictures.description);
 }
 
 bool VesselRun::pictures_due(long step, bool output_due) {
@@ -247,7 +239,6 @@ void VesselRun::time_loop() {
     vent(step_);
     const peridynamics::StepEvents events =
         body_->advance(pressure_at(step_) * vent_now_, pressure_at(step_ + 1) * vent_next_);
-    bond_evaluations_ = body_->bond_evaluations();
     std::uint64_t flags = 0;
     if (InterruptGuard::requested()) flags |= Flag::interrupted;
     if (events.broken > 0) flags |= Flag::broken;

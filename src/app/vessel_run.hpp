@@ -6,7 +6,6 @@
 
 #include "app/network_coupling.hpp"
 #include "app/run_base.hpp"
-#include "insitu/pipeline.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
 #include "peridynamics/body.hpp"
@@ -30,7 +29,6 @@ class VesselRun : private RunBase {
   std::string unstable_message(long step, const std::string& sign) const;
   void build();
   void open_results();
-  void start_insitu();
   void say_header();
   void time_loop();
   void observe(long step, bool with_output, bool with_pictures);
@@ -43,6 +41,7 @@ class VesselRun : private RunBase {
   void read_checkpoint();
   void finish_pictures();
   void say_summary();
+  std::optional<std::int64_t> bond_evaluations() const override { return body_->bond_evaluations(); }
   double pressure_at(long step) const;
   double time_at(long step) const { return static_cast<double>(step) * c_.time_step; }
 
@@ -53,8 +52,6 @@ class VesselRun : private RunBase {
   NetworkCoupling* coupling_;
   std::unique_ptr<peridynamics::LumenGauge> lumen_;
   double resistance_factor_ = 1;  ///< of the lumen
-  std::unique_ptr<insitu::Pipeline> pipeline_;
-  std::string renderer_;  ///< who draws, or why nobody does
   std::optional<output::PointSeries> series_;
   std::optional<output::History> history_;
 

@@ -161,6 +161,12 @@ vtkSmartPointer<vtkPolyData> poly_data_of(const Lines& lines) {
   return data;
 }
 
+/// What VTK says went wrong; empty if nothing.
+std::string complaint(const Silence& silence, bool done, unsigned long code) {
+  if (!silence.window->errors.empty()) return silence.window->errors;
+  return done && code == 0 ? std::string() : "VTK's error code " + std::to_string(code);
+}
+
 }  // namespace
 
 extern "C" void rhexis_vtp_read(const std::string& path, Lines& lines, std::string& problem) try {
@@ -168,17 +174,10 @@ extern "C" void rhexis_vtp_read(const std::string& path, Lines& lines, std::stri
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
+  problem = complaint(silence, true, reader->GetErrorCode());
   vtkPolyData* data = reader->GetOutput();
-  if (!silence.window->errors.empty()) {
-    problem = silence.window->errors;
-  } else if (reader->GetErrorCode() != 0) {
-    problem = "VTK's error code " + std::to_string(reader->GetErrorCode());
-  } else if (data == nullptr) {
-    problem = "no PolyData";
-  } else {
-    problem = check_offsets(data);
-    if (problem.empty()) copy_lines(data, lines);
-  }
+  if (problem.empty()) problem = data == nullptr ? "no PolyData" : check_offsets(data);
+  if (problem.empty()) copy_lines(data, lines);
 } catch (const std::exception& error) {
   problem = error.what();
 }
@@ -188,15 +187,11 @@ extern "C" void rhexis_vtp_write(const std::string& path, const Lines& lines, st
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetFileName(path.c_str());
   writer->SetInputData(poly_data_of(lines));
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
+  // In place: VTK's reader of appended data fails with newer versions of expat.
+  writer->SetDataModeToBinary();
   writer->SetHeaderTypeToUInt64();
-  const bool written = writer->Write() != 0 && writer->GetErrorCode() == 0;
-  if (!silence.window->errors.empty()) {
-    problem = silence.window->errors;
-  } else if (!written) {
-    problem = "VTK's error code " + std::to_string(writer->GetErrorCode());
-  }
+  const bool written = writer->Write() != 0;
+  problem = complaint(silence, written, writer->GetErrorCode());
 } catch (const std::exception& error) {
   problem = error.what();
 }
