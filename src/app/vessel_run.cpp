@@ -195,9 +195,10 @@ void VesselRun::vent(long step) {
   least_vent_ = std::min(least_vent_, vent_next_);
 }
 
-/// Takes over what the network says of the load.
+/// Takes over what the network says of the load: of its size from the next step on, as with venting, so that
+/// the work done stays exact.
 void VesselRun::take_load() {
-  c_.vessel.pressure = coupling_->pressure();
+  if (c_.vessel.pressure > 0) vent_next_ = coupling_->pressure() / c_.vessel.pressure;
   body_->set_axial_profile(coupling_->profile(lattice_.rows, lattice_.row_spacing));
 }
 
