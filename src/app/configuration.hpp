@@ -14,6 +14,7 @@
 #include "output/parameters.hpp"
 #include "parallel/communicator.hpp"
 #include "peridynamics/parameters.hpp"
+#include "screening/parameters.hpp"
 
 namespace rhexis::app {
 
@@ -24,6 +25,7 @@ struct Configuration {
   peridynamics::Parameters vessel;
   network::Parameters network;
   hemodynamics::Parameters hemodynamics;
+  screening::Parameters screening;
   coupling::Parameters coupling;
   output::Parameters output;
   insitu::Parameters insitu;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/console.hpp"
 #include "app/graph_network.hpp"
@@ -11,6 +12,7 @@
 #include "core/format.hpp"
 #include "hemodynamics/graph_flow.hpp"
 #include "hemodynamics/haematocrit.hpp"
+#include "network/tree_pair.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::app {
@@ -35,8 +37,12 @@ class ExplicitTier : public NetworkTier {
       // A tree is connected by its making.
       if (c_.network.source == "file")
         hemodynamics::check_flow_problem(network_.graph, network_.conditions, solver_options(c_));
-      for (const std::string& name : c_.network.query)
-        queried_.push_back(find_vessel(c_, network_.graph, name));
+      for (const std::string& name : c_.network.query) {
+        const bool coupled = c_.is_coupled() && name == c_.coupling.vessel;
+        queried_.push_back(
+            find_vessel(c_, network_.graph, name, coupled ? "coupling.vessel" : "network.query"));
+      }
+      if (c_.network.source == "file") mark_weak_vessels();
     });
   }
 
@@ -54,6 +60,16 @@ class ExplicitTier : public NetworkTier {
   }
 
  private:
+  void mark_weak_vessels() {
+    for (const std::string& name : c_.network.weakness.vessels) {
+      const std::uint32_t v = find_vessel(c_, network_.graph, name, "weakness.vessels");
+      mechanics_.variation.mark(kind_of(v), {v, v + 1});
+    }
+  }
+  network::VesselKind kind_of(std::size_t v) const {
+    return network_.graph.kind.empty() ? network::VesselKind::unknown : network_.graph.kind[v];
+  }
+
   void solve_here(NetworkSolution& s, const Say& say) {
     const Graph& graph = network_.graph;
     say(fmt::format("  network made in {}: {} vessels, {} junctions", duration(making_),
@@ -76,9 +92,10 @@ class ExplicitTier : public NetworkTier {
     add_weight(network_.graph, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
     for (std::size_t i = 0; i < queried_.size(); ++i) {
-      s.queries.push_back(describe_vessel(network_.graph, flow, queried_[i], mechanics_));
+      s.queries.push_back(describe(flow, queried_[i]));
       s.queries.back().name = c_.network.query[i];
     }
+    if (c_.screening.top > 0) screen(flow, s);
     if (graph.vessels() <= longest_table) fill_table(flow, s);
     show(flow, s);
   }
@@ -111,6 +128,31 @@ class ExplicitTier : public NetworkTier {
     const auto [low, high] = extremes_of(flow.pressure);
     s.lowest_pressure = low;
     s.highest_pressure = high;
+  }
+
+  QueriedVessel describe(const hemodynamics::GraphFlow& flow, std::uint32_t v) const {
+    QueriedVessel q = describe_vessel(network_.graph, flow, v, mechanics_);
+    q.name = c_.network.source == "tree" ? network::TreePair::path_of(v) : network_.graph.name_of_vessel(v);
+    return q;
+  }
+
+  void screen(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
+    const Graph& g = network_.graph;
+    const screening::Criterion criterion = criterion_of(c_);
+    const int generations =
+        g.generation.empty() ? 0 : 1 + *std::max_element(g.generation.begin(), g.generation.end());
+    screening::RiskTally tally(generations, static_cast<std::size_t>(c_.screening.top));
+    for (std::size_t v = 0; v < g.vessels(); ++v) {
+      const double pressure = 0.5 * (flow.pressure[g.from[v]] + flow.pressure[g.to[v]]);
+      if (std::isnan(pressure)) continue;  // no blood reaches it
+      const network::WallFactors strength{wall_factors(g, v, mechanics_).strength, 1};
+      const double thickness = wall_thickness(g, v, mechanics_) / g.radius[v];
+      tally.add(g.generation.empty() ? -1 : g.generation[v], kind_of(v),
+                {risk(criterion, pressure, thickness, strength), v, 1});
+    }
+    s.screening = tally.result(parallel::Communicator::self());
+    for (const screening::RankedVessel& v : s.screening->top)
+      s.at_risk.push_back(describe(flow, static_cast<std::uint32_t>(v.vessel)));
   }
 
   void fill_table(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {

@@ -38,9 +38,16 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
   }
   const Stopwatch watch(exchange_s_);
   parallel::together<InputError>(comm_, [&] {
-    if (solution_.queries.empty()) return;
-    chosen_ = solution_.queries.back();
-    solution_.queries.pop_back();
+    if (c_.coupling.screens()) {
+      if (solution_.at_risk.empty()) {
+        if (!comm_.is_root()) return;
+        throw input::located(InputError("no vessel's wall is under tension", "coupling.vessel"), c_.resolved);
+      }
+      chosen_ = solution_.at_risk.front();
+    } else if (!solution_.queries.empty()) {
+      chosen_ = solution_.queries.back();
+      solution_.queries.pop_back();
+    }
   });
   vessel_ = tier_->vessel(chosen_);
   try {
@@ -66,12 +73,13 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
     throw input::located(error, c_.resolved);
   }
   // What the first rank knows of the vessel, all ranks need.
-  double values[] = {data_.radius,      data_.wall_thickness, data_.length,
-                     load_.pressure[0], load_.pressure[1],    load_.pressure[2]};
+  double values[] = {data_.radius,      data_.wall_thickness, data_.length,           load_.pressure[0],
+                     load_.pressure[1], load_.pressure[2],    chosen_.strength_factor};
   if (!comm_.is_root()) std::fill(std::begin(values), std::end(values), 0.0);
   comm_.all_reduce(values, parallel::Reduce::sum);
   data_ = {values[0], values[1], values[2]};
   load_.pressure = {values[3], values[4], values[5]};
+  c_.vessel.critical_stretch *= values[6];
   least_pressure_ = load_.pressure[1];
   try {
     piece_ = coupling::hand_over(data_, c_.coupling.resolution == "paper", c_.vessel);

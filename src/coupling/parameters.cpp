@@ -8,8 +8,8 @@ ParameterList declare(Parameters& p) {
        &p.vessel,
        "",
        {},
-       "The vessel whose wall is simulated: its path in a tree (\"artery.0110\"), its id, or its name in a "
-       "file.",
+       "The vessel whose wall is simulated: its path in a tree (\"artery.0110\"), its id, its name in a "
+       "file, or \"screening\": the one at highest risk.",
        "Sec. 3.3"},
       {"coupling.mode",
        &p.mode,
@@ -65,6 +65,14 @@ Compression compression(const Parameters& p) {
   c.from = p.compression_from.value_or(c.from);
   c.to = p.compression_to.value_or(c.to);
   return c;
+}
+
+double outside_everywhere(const Parameters& p) {
+  PressureParts parts;
+  parts.tension = p.tension;
+  parts.atmosphere = p.atmosphere;
+  if (!p.compression_from && !p.compression_to) parts.compression = p.compression;
+  return parts.outside();
 }
 
 }  // namespace rhexis::coupling

@@ -19,10 +19,11 @@ MAY_INCLUDE = {
     "peridynamics": {"parallel"},
     "network": {"parallel"},
     "hemodynamics": {"network", "parallel"},
+    "screening": {"parallel", "network", "hemodynamics"},
     "coupling": {"parallel", "network", "hemodynamics", "peridynamics"},
     "output": {"parallel"},
     "insitu": {"parallel"},
-    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "output", "insitu"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "screening", "coupling", "output", "insitu"},
 }
 
 
