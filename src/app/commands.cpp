@@ -8,7 +8,7 @@
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
-#include "app/network_coupling.hpp"
+#include "app/coupled_run.hpp"
 #include "app/network_run.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"

@@ -255,6 +255,11 @@ void resolve_coupling(Configuration& c) {
   c.network.wall.young_modulus = c.vessel.young_modulus;
   c.network.wall.poisson_ratio = peridynamics::Pmb::poisson_ratio;
   c.screening.critical_stretch = c.vessel.critical_stretch;
+  if (p.events > 0 && c.network.source == "tree" && c.network.tier != "explicit")
+    throw InputError("a cascade needs network.tier = \"explicit\"", "cascade.events");
+  if (p.events > 0 && c.hemodynamics.phase_separation)
+    throw InputError("not with blood.phase_separation", "cascade.events");
+  if (p.events > 0) c.screening.top = std::max<std::int64_t>(1, c.screening.top);
   if (p.screens()) {
     c.screening.top = std::max<std::int64_t>(1, c.screening.top);
   } else {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "coupling/injured_graph.hpp"
 #include "coupling/parameters.hpp"
 #include "hemodynamics/parameters.hpp"
 #include "input/reader.hpp"
@@ -17,6 +18,12 @@
 #include "screening/parameters.hpp"
 
 namespace rhexis::app {
+
+/// What the earlier events of a cascade left: no input.
+struct Aftermath {
+  std::vector<coupling::Injury> injuries;
+  std::vector<std::uint32_t> settled;  ///< vessels that were simulated, whether they ruptured or held
+};
 
 struct Configuration {
   std::string file;
@@ -30,6 +37,7 @@ struct Configuration {
   output::Parameters output;
   insitu::Parameters insitu;
 
+  Aftermath aftermath;
   network::TreeRules tree;  ///< where network.source = "tree"
 
   bool is_coupled() const { return model == "coupled"; }

@@ -8,6 +8,7 @@
 #include "app/graph_network.hpp"
 #include "app/network_tier.hpp"
 #include "app/stopwatch.hpp"
+#include "coupling/injured_graph.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/graph_flow.hpp"
@@ -54,6 +55,10 @@ class ExplicitTier : public NetworkTier {
 
   std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel& queried) override {
     if (!comm_.is_root()) return nullptr;
+    if (injured_) {
+      return coupling::vessel_in_graph(injured_->graph(), injured_->conductance(), injured_->conditions(),
+                                       static_cast<std::uint32_t>(queried.vessel));
+    }
     return coupling::vessel_in_graph(network_.graph,
                                      conductances(network_.graph, mechanics_.viscosity, haematocrit_),
                                      network_.conditions, static_cast<std::uint32_t>(queried.vessel));
@@ -100,7 +105,16 @@ class ExplicitTier : public NetworkTier {
     show(flow, s);
   }
 
+  hemodynamics::GraphFlow find_injured_flow(NetworkSolution& s) {
+    injured_.emplace(network_.graph, conductances(network_.graph, mechanics_.viscosity, {}),
+                     network_.conditions, c_.aftermath.injuries);
+    coupling::InjuredGraph::Result result = injured_->solve(solver_options(c_));
+    s.leaks = std::move(result.leaks);
+    return std::move(result.flow);
+  }
+
   hemodynamics::GraphFlow find_flow(NetworkSolution& s) {
+    if (!c_.aftermath.injuries.empty()) return find_injured_flow(s);
     const auto flow_of = [&](std::span<const double> haematocrit) {
       return hemodynamics::solve_flow(network_.graph,
                                       conductances(network_.graph, mechanics_.viscosity, haematocrit),
@@ -142,7 +156,10 @@ class ExplicitTier : public NetworkTier {
     const int generations =
         g.generation.empty() ? 0 : 1 + *std::max_element(g.generation.begin(), g.generation.end());
     screening::RiskTally tally(generations, static_cast<std::size_t>(c_.screening.top));
+    std::vector<bool> settled(g.vessels());
+    for (const std::uint32_t v : c_.aftermath.settled) settled[v] = true;
     for (std::size_t v = 0; v < g.vessels(); ++v) {
+      if (settled[v]) continue;
       const double pressure = 0.5 * (flow.pressure[g.from[v]] + flow.pressure[g.to[v]]);
       if (std::isnan(pressure)) continue;  // no blood reaches it
       const network::WallFactors strength{wall_factors(g, v, mechanics_).strength, 1};
@@ -181,6 +198,7 @@ class ExplicitTier : public NetworkTier {
   network::BoundedGraph network_;
   std::vector<double> haematocrit_;  ///< [V], with phase separation
   std::vector<std::uint32_t> queried_;
+  std::optional<coupling::InjuredGraph> injured_;
   double making_ = 0;  ///< s
 };
 

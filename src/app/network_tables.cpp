@@ -9,14 +9,14 @@ namespace {
 
 constexpr const char* kinds[2] = {"artery", "vein"};
 
+}  // namespace
+
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + '"';
 }
-
-}  // namespace
 
 std::string generation_table(const hemodynamics::TreeStatistics& s) {
   std::string table = "generation,kind,vessels,mean_length_m,volume_m3,surface_m2";

@@ -8,6 +8,9 @@
 
 namespace rhexis::app {
 
+/// A name as a CSV field.
+std::string quoted(const std::string& text);
+
 /// A row for each generation and kind: count, radius, length, volume, surface; mean, least and most of
 /// pressure, flow and hoop stress. SI units, named in the header.
 std::string generation_table(const hemodynamics::TreeStatistics& s);

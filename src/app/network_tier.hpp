@@ -51,6 +51,7 @@ struct NetworkSolution {
   std::vector<QueriedVessel> queries;
   std::optional<screening::Screening> screening;
   std::vector<QueriedVessel> at_risk;  ///< [screening->top]
+  std::vector<double> leaks;           ///< m3/s, of the injuries that earlier events left
   std::vector<VesselRow> table;
   hemodynamics::VesselLines lines;  ///< to store and draw: this rank's
   std::int64_t shown = 0;           ///< of all ranks

@@ -20,6 +20,11 @@ class RunBase {
  protected:
   struct Spent {
     double solve = 0, output = 0, insitu = 0;  ///< s
+    void add(const Spent& other) {
+      solve += other.solve;
+      output += other.output;
+      insitu += other.insitu;
+    }
   };
 
   RunBase(Configuration configuration, RunOptions options, parallel::Communicator comm);

@@ -25,6 +25,9 @@ class VesselRun : private RunBase {
   /// InputError (nothing written).
   Ending run();
 
+  const output::Results& results() const { return results_; }
+  const Spent& spent() const { return spent_; }
+
  private:
   std::string unstable_message(long step, const std::string& sign) const;
   void build();

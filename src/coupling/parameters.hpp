@@ -20,6 +20,10 @@ struct Parameters {
   std::string compression_axis;
   std::optional<double> compression_from, compression_to;  ///< m
 
+  std::int64_t events = 0;  ///< most vessels of a cascade; 0: one vessel, no cascade
+  std::string outcome;      ///< "bleeding" | "occlusion"
+  double risk_limit = 1;
+
   bool screens() const { return vessel == "screening"; }
 };
 
