@@ -35,6 +35,7 @@ class CascadeRun : private RunBase {
     results_.cascade = nlohmann::ordered_json::array();
     Ending ending = Ending::completed;
     try {
+      start_insitu();
       while (!next->at_rest() && ending == Ending::completed &&
              static_cast<std::int64_t>(results_.cascade.size()) < c_.coupling.events) {
         ending = simulate(*next);
@@ -50,6 +51,8 @@ class CascadeRun : private RunBase {
       }
       results_.network = next->network_results();
       next->write(options_.directory);
+      finish_insitu();
+      make_movie();
     } catch (const RunError& error) {
       note_failure(error.what());
       throw;
@@ -71,6 +74,8 @@ class CascadeRun : private RunBase {
     RunOptions options = options_;
     options.directory = options_.directory / fmt::format("event_{:02d}", number);
     options.started = seconds_now();
+    options.pictures = pictures_;
+    coupling.set_event(number);
     const double pressure = coupling.pressure();
     VesselRun run(c_, options, comm_, &coupling);
     const Ending ending = run.run();
@@ -98,6 +103,8 @@ class CascadeRun : private RunBase {
     elapsed_ += r.simulated_s.value_or(0);
     results_.cascade.push_back(std::move(event));
     results_.simulated_s = elapsed_;
+    pictures_->steps_before += r.steps.value_or(0) + 1;
+    pictures_->seconds_before = elapsed_;
     return ending;
   }
 

@@ -205,7 +205,8 @@ LineSource& NetworkCoupling::lines() {
   std::vector<Annotation> notes{{"vessels", "1", static_cast<double>(solution_.vessels)},
                                 {"shown", "1", static_cast<double>(solution_.shown)},
                                 {"inflow", "m3/s", solution_.inflow},
-                                {"leak", "m3/s", leak_}};
+                                {"leak", "m3/s", leak_},
+                                {"event", "1", static_cast<double>(event_)}};
   if (chosen_.start) {
     constexpr const char* names[] = {"chosen_start_x", "chosen_start_y", "chosen_start_z",
                                      "chosen_end_x",   "chosen_end_y",   "chosen_end_z"};

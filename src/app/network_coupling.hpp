@@ -55,6 +55,8 @@ class NetworkCoupling {
   void exchange(const Wall& wall);
   double leak() const { return leak_; }  ///< m3/s, by the last exchange
 
+  /// Of a cascade, for the pictures.
+  void set_event(std::size_t number) { event_ = number; }
   /// The network as it is shown: with the vessel's place, pressure and leak.
   LineSource& lines();
   output::NetworkResults network_results() const;
@@ -81,6 +83,7 @@ class NetworkCoupling {
   /// At the vessel's beginning, middle and end; the heart's by the last exchange.
   std::array<coupling::PressureParts, 3> parts_{};
   coupling::AxialLoad load_, first_load_;
+  std::size_t event_ = 0;
   long steps_per_window_ = 1, windows_ = 0;
   double leak_ = 0, leaked_ = 0, last_time_ = 0;  ///< m3/s, m3, s
   double worst_imbalance_ = 0, least_pressure_ = 0;

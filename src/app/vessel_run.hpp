@@ -42,7 +42,6 @@ class VesselRun : private RunBase {
   void take_load();
   void write_checkpoint(long step);
   void read_checkpoint();
-  void finish_pictures();
   void say_summary();
   std::optional<std::int64_t> bond_evaluations() const override { return body_->bond_evaluations(); }
   double pressure_at(long step) const;
