@@ -44,8 +44,7 @@ double seconds_per_vessel(const Configuration& c, parallel::Communicator comm) {
 }  // namespace
 
 void check_network(const Configuration& c, parallel::Communicator comm) {
-  const auto tier = make_tier(c, comm);
-  tier->prepare();
+  const auto tier = prepared_tier(c, comm);
   Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);

@@ -31,8 +31,7 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
     : c_(c), comm_(comm) {
   {
     const Stopwatch watch(network_s_);
-    tier_ = make_tier(c_, comm_);
-    tier_->prepare();
+    tier_ = prepared_tier(c_, comm_);
     console.item("network", tier_->description());
     solution_ = tier_->solve([&](const std::string& text) { console.line(text); });
   }

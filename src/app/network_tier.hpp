@@ -82,8 +82,8 @@ class NetworkTier {
 std::unique_ptr<NetworkTier> make_implicit_tier(const Configuration& c, parallel::Communicator comm);
 std::unique_ptr<NetworkTier> make_explicit_tier(const Configuration& c, parallel::Communicator comm);
 std::unique_ptr<NetworkTier> make_distributed_tier(const Configuration& c, parallel::Communicator comm);
-/// By network.tier.
-std::unique_ptr<NetworkTier> make_tier(const Configuration& c, parallel::Communicator comm);
+/// By network.tier, and prepared: throws InputError, complete with place. Collective.
+std::unique_ptr<NetworkTier> prepared_tier(const Configuration& c, parallel::Communicator comm);
 
 /// Walls of a tree are marked; of a file, the reader does that.
 hemodynamics::VesselMechanics mechanics_of(const Configuration& c);
