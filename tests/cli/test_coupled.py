@@ -1,0 +1,289 @@
+"""A vessel of a network, coupled, as a user meets it: wrong input, load, bleeding, ranks, restarts.
+
+Run by ctest as: test_coupled.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
+"""
+
+import csv
+import json
+import math
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+import h5py
+import numpy as np
+
+RHEXIS, *MPIRUN = sys.argv[1:]
+
+MMHG = 133.322387415  # Pa
+BLOOD_VISCOSITY, BLOOD_DENSITY, DISCHARGE = 3.5e-3, 1060, 0.62  # Pa s, kg/m3: the program's defaults
+
+# Three vessels in a row, the middle one of 144 columns x 24 rows: a second for a run.
+JUNCTIONS = """\
+id,x [mm],y [mm],z [mm],pressure [mmHg]
+heart,-100,0,0,200
+neck,-2,10,0,
+brain,4,20,0,
+vein,50,0,0,20
+"""
+VESSELS = """\
+id,from,to,radius [mm],length [mm],wall_thickness [mm]
+feeder,heart,neck,1.2,300,0.4
+artery,neck,brain,1.5,6,0.75
+bed,brain,vein,0.3,50,0.1
+"""
+TWO_WAY = """\
+[scene]
+model = "coupled"
+
+[network]
+source = "file"
+files = ["j.csv", "v.csv"]
+
+[blood]
+viscosity_law = "constant"
+
+[coupling]
+vessel = "artery"
+mode = "two_way"
+window = "20 us"
+
+[material]
+critical_stretch = 0.015
+
+[discretisation]
+spacing = "250 um"
+
+[load]
+schedule = "smooth_ramp"
+ramp_time = "0.8 ms"
+
+[time]
+step = "5 us"
+end = "1.6 ms"
+
+[output]
+every_steps = 4
+precision = "double"
+"""
+TREE = """\
+[scene]
+model = "coupled"
+
+[tree]
+generations = 12
+root_radius = "2 mm"
+asymmetry = 0.9
+least_asymmetry = 0.4
+
+[wall]
+artery_ratio = 0.75
+
+[flow]
+inlet_pressure = "200 mmHg"
+outlet_pressure = "5 mmHg"
+
+[coupling]
+vessel = "artery.0"
+
+[discretisation]
+particles = 3200
+
+[time]
+end = "0.2 ms"
+
+[output]
+every_steps = 50
+"""
+
+
+def changed(text, key, new):
+    """`text` with another line for the one of `key`."""
+    lines = text.splitlines()
+    (place,) = (i for i, line in enumerate(lines) if line.startswith(f"{key} ="))
+    return "\n".join([*lines[:place], new, *lines[place + 1:]]) + "\n"
+
+
+ONE_WAY = changed(TWO_WAY, "mode", "")
+TORN_TREE = changed(TREE, "vessel", 'vessel = "artery.0"\nmode = "two_way"\nwindow = "20 us"\nresolution = "paper"')
+TORN_TREE = changed(TORN_TREE, "end", 'end = "0.8 ms"') + """\
+[load]
+schedule = "smooth_ramp"
+ramp_time = "0.2 ms"
+[material]
+critical_stretch = 0.016
+"""
+TORN_TREE = TORN_TREE.replace("artery_ratio = 0.75", "artery_ratio = 0.5").replace("[wall]", "length_ratio = 4\n[wall]")
+SHORT = {"j.csv": JUNCTIONS, "v.csv": VESSELS.replace(",6,0.75", ",0.3,0.75")}
+PLACELESS = "id,pressure [mmHg]\nheart,200\nneck,\nbrain,\nvein,20\n"
+CUFF = '[body]\ncompression = "10 mmHg"\n'
+
+# Those that several ranks find out in different ways: all of them or the first for all, before, after and without the network's solution.
+BY_TWO_RANKS = {"id beyond the last", "absent from the file", "rows of a piece", "collapse", "checkpoints of two-way coupling"}
+# name, input, what the message says: file, line, key and value, as a regular expression, and what is allowed; other files
+WRONG = [
+    ("id beyond the last", changed(TREE, "vessel", 'vessel = "8190"'), [r'c\.toml:18: coupling\.vessel = "8190": ', "0 to 8189"]),
+    ("path with a two", changed(TREE, "vessel", 'vessel = "artery.0120"'), [r'c\.toml:18: coupling\.vessel = "artery.0120": ', "0 and 1"]),
+    ("absent from the file", changed(TWO_WAY, "vessel", 'vessel = "nerve"'), [r'c\.toml:12: coupling\.vessel = "nerve": ', r"v\.csv"]),
+    ("no vessel", changed(TWO_WAY, "vessel", ""), [r"c\.toml: coupling\.vessel is missing", "its path in a tree"]),
+    ("rows of a piece", changed(TWO_WAY, "spacing", "particles = 1000"), [r"c\.toml:20: discretisation\.particles = 1000: ", "5 spacings", "10 rows"]),
+    ("rows of a whole vessel", changed(TWO_WAY, "spacing", "particles = 30000"), [r"c\.toml:20: discretisation\.particles = 30000: ", "10 spacings"], SHORT),
+    ("rows without a choice", changed(TWO_WAY, "spacing", ""), [r'c\.toml: discretisation\.particles \(default "auto"\): ', "10 spacings"], SHORT),
+    ("shorter than a spacing", changed(TWO_WAY, "spacing", 'spacing = "350 um"'),
+     [r"c\.toml:\d+: (coupling\.vessel|discretisation\.spacing) = ", "300 um"], SHORT),
+    ("collapse", TWO_WAY + '[body]\ncompression = "300 mmHg"\n', [r"c\.toml:\d+: (body|coupling)\.\w+ = ", "artery", r"Eq\. \(?7", "collapse", "-1.. mmHg"]),
+    ("collapse by tissue", TWO_WAY + '[body]\ntissue_tension = "300 mmHg"\n', [r"c\.toml:\d+: (body|coupling)\.\w+ = ", "artery", "collapse"]),
+    ("window below a step", changed(TWO_WAY, "window", 'window = "4 us"'), [r'c\.toml:14: coupling\.window = "4 us": ', "5 us"]),
+    ("window beyond the end", changed(TWO_WAY, "window", 'window = "2 ms"'), [r'c\.toml:14: coupling\.window = "2 ms": ', r"time\.end = 1\.6 ms"]),
+    ("cuff beyond the body", TWO_WAY + CUFF + 'compression_from = "1 m"\ncompression_to = "2 m"\n',
+     [r'c\.toml:35: body\.compression_from = "1 m": ', r"-0\.1 m to 0\.05 m"]),
+    ("cuff before the body", TWO_WAY + CUFF + 'compression_to = "-1 m"\n', [r'c\.toml:35: body\.compression_to = "-1 m": ', r"-0\.1 m to 0\.05 m"]),
+    ("cuff beyond a tree", TREE + CUFF + 'compression_from = "9 m"\n', [r'c\.toml:30: body\.compression_from = "9 m": ', "reaches from"]),
+    ("cuff the wrong way round", TWO_WAY + CUFF + 'compression_from = "2 cm"\ncompression_to = "1 cm"\n',
+     [r'c\.toml:36: body\.compression_to = "1 cm": ', "above body.compression_from"]),
+    ("cuff without places", TWO_WAY + CUFF + 'compression_from = "0 m"\n',
+     [r'c\.toml:35: body\.compression_from = "0 m": ', "coordinates"], {"j.csv": PLACELESS, "v.csv": VESSELS}),
+    ("weight without places", TWO_WAY + '[flow]\nacceleration = ["0 m/s2", "9 m/s2", "0 m/s2"]\n',
+     [r"c\.toml:34: flow\.acceleration = ", "coordinates"], {"j.csv": PLACELESS, "v.csv": VESSELS}),
+    ("distributed file", changed(TWO_WAY, "source", 'source = "file"\ntier = "distributed"'),
+     [r'c\.toml:6: network\.tier = "distributed": ', "implicit or explicit"]),
+    ("section of a vessel's scene", TWO_WAY + '[vessel]\nlength = "2 mm"\n', [r"c\.toml:33: section \[vessel\]", r'scene\.model = "vessel"', '"coupled"']),
+    ("pressure", changed(TWO_WAY, "ramp_time", 'pressure = "10 kPa"'), [r'c\.toml:24: load\.pressure = "10 kPa": ', "network"]),
+    ("table", changed(TWO_WAY, "schedule", 'schedule = "table"'), [r'c\.toml:23: load\.schedule = "table": ', "network"]),
+    ("checkpoints of two-way coupling", changed(TWO_WAY, "precision", "checkpoint_every = 9"), [r"c\.toml:32: output\.checkpoint_every = 9: ", "two.way"]),
+]
+
+
+def resistance(radius, length):
+    return 8 * BLOOD_VISCOSITY * length / (math.pi * radius**4)
+
+
+FEEDER, ARTERY, BED = resistance(1.2e-3, 0.3), resistance(1.5e-3, 6e-3), resistance(0.3e-3, 0.05)
+
+
+def bleeding(share, factor, opening, outside, weight):
+    """The artery as a tube of two halves, with a hole between them, fed through the feeder and drained by the bed.
+
+    `share` of all pressures acts; `factor` is on the artery's resistance; `outside` and `weight` (Eq. 7: tension and
+    compression; P_g) hold at its beginning, middle and end. Net pressures there, leak, inflow, outflow.
+    """
+    heart, vein = 200 * MMHG * share, 20 * MMHG * share
+    outside, weight = [share * p for p in outside], [share * p for p in weight]
+    up, down = FEEDER + factor * ARTERY / 2, factor * ARTERY / 2 + BED
+
+    def leak(p):
+        return DISCHARGE * opening * math.sqrt(2 * max(p + weight[1] - outside[1], 0) / BLOOD_DENSITY)
+
+    low, high = -heart, heart
+    for _ in range(200):
+        p = (low + high) / 2
+        low, high = (p, high) if (heart - p) / up - (p - vein) / down > leak(p) else (low, p)
+    flows = (heart - p) / up, (vein - p) / down
+    places = heart - flows[0] * FEEDER, p, vein - flows[1] * BED
+    net = [max(p + g - o, 0) for p, g, o in zip(places, weight, outside)]  # collapse is not modelled
+    return net, leak(p), sum(max(q, 0) for q in flows), sum(max(-q, 0) for q in flows)
+
+
+def at_once(function, argument_lists):
+    """What `function` returns for each: starting a program is mostly waiting."""
+    with ThreadPoolExecutor(4) as pool:
+        return list(pool.map(lambda arguments: function(*arguments), argument_lists))
+
+
+class Coupled(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory(prefix="rhexis_coupled_")
+        self.addCleanup(self.folder.cleanup)
+        self.path = pathlib.Path(self.folder.name)
+        self.write({"j.csv": JUNCTIONS, "v.csv": VESSELS})
+
+    def write(self, files):
+        for name, text in files.items():
+            (self.path / name).write_text(text, encoding="utf-8")
+
+    def rhexis(self, *arguments, ranks=None, threads=None, cwd=None):
+        launcher = [*MPIRUN, "-n", str(ranks)] if ranks else []
+        environment = {**os.environ, "OMP_NUM_THREADS": str(threads)} if threads else None
+        return subprocess.run([*launcher, RHEXIS, *arguments], cwd=cwd or self.path, capture_output=True, text=True, timeout=300,
+                              stdin=subprocess.DEVNULL, env=environment, check=False)
+
+    def run_well(self, scene, folder, *overrides, more=(), **launch):
+        """Runs `scene` into `folder`; its results without what differs from run to run: times."""
+        self.write({f"{folder}.toml": scene})
+        settings = [word for override in overrides for word in ("--set", override)]
+        result = self.rhexis("run", f"{folder}.toml", "--quiet", "-o", folder, *settings, *more, **launch)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        record = json.loads((self.path / folder / "run.json").read_text())
+        self.assertEqual(record["status"], "completed")
+        for key in ("network_s", "exchange_s"):
+            (record["results"]["coupling"] or {}).pop(key, None)
+        return record["results"]
+
+    def rows(self, file):
+        with open(self.path / file, encoding="utf-8") as stream:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
+
+    def assert_close(self, a, b, relative, message=None):
+        self.assertLessEqual(abs(a - b), relative * abs(b), (a, b, message))
+
+    def assert_same_data(self, a, b):
+        """Every data set of two HDF5 files, bit for bit."""
+        with h5py.File(self.path / a) as one, h5py.File(self.path / b) as other:
+            names = [], []
+            one.visit(names[0].append)
+            other.visit(names[1].append)
+            self.assertEqual(*names)
+            data = [name for name in names[0] if isinstance(one[name], h5py.Dataset) and not name.endswith("unplanned")]
+            self.assertGreater(len(data), 5)
+            for name in data:
+                self.assertEqual(one[name][()].tobytes(), other[name][()].tobytes(), name)
+
+    # -- wrong input ---------------------------------------------------------------------------------------------
+
+    def refuse(self, case, ranks, *command):
+        """Runs it in a folder of its own; the result, and what it left there."""
+        name, text, _, *files = case
+        files = {"c.toml": text, "j.csv": JUNCTIONS, "v.csv": VESSELS, **(files[0] if files else {})}
+        folder = self.path / f"{name} {ranks}"
+        folder.mkdir()
+        self.write({folder / file: content for file, content in files.items()})
+        result = self.rhexis(*(command or ("run", "c.toml")), ranks=ranks, cwd=folder)
+        return result, sorted(set(os.listdir(folder)) - set(files))
+
+    def assert_refused(self, result, left, patterns):
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.stderr.count("rhexis: "), 1, f"not one message: {result.stderr}")
+        for pattern in patterns:
+            self.assertRegex(result.stderr, pattern)
+        self.assertEqual(left, [], "something was written")
+
+    def test_wrong_inputs(self):
+        cases = [(case, None) for case in WRONG] + [(case, 2) for case in WRONG if case[0] in BY_TWO_RANKS]
+        self.assertEqual(len(cases), len(WRONG) + len(BY_TWO_RANKS))
+        for (case, ranks), outcome in zip(cases, at_once(self.refuse, cases), strict=True):
+            with self.subTest(case[0], ranks=ranks):
+                self.assert_refused(*outcome, case[2])
+        outcome = self.refuse(("restart", TWO_WAY, []), None, "run", "c.toml", "--restart", "x.h5")
+        self.assert_refused(*outcome, ["--restart", "two.way"])
+
+    def test_check(self):
+        self.write({"two_way.toml": TWO_WAY, "tree.toml": TREE})
+        before = sorted(os.listdir(self.path))
+        for scene, patterns in (("two_way.toml", ["artery", "3,456", "stable", "mmHg"]),
+                                ("tree.toml", [r"artery\.0", "3,212", "piece", "stable", "mmHg"])):
+            with self.subTest(scene):
+                result = self.rhexis("check", scene)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                for pattern in patterns:
+                    self.assertRegex(result.stdout, pattern)
+        self.assertEqual(sorted(os.listdir(self.path)), before)
+        cuff = next(case for case in WRONG if case[0] == "cuff beyond the body")
+        self.assert_refused(*self.refuse(cuff, None, "check", "c.toml"), cuff[2])
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)
