@@ -284,6 +284,102 @@ class Coupled(unittest.TestCase):
         cuff = next(case for case in WRONG if case[0] == "cuff beyond the body")
         self.assert_refused(*self.refuse(cuff, None, "check", "c.toml"), cuff[2])
 
+    # -- the load ------------------------------------------------------------------------------------------------
+
+    def test_without_flow_it_is_the_standalone_vessel(self):
+        """The whole vessel, and the piece of it that the constant-N rule leaves; both tear and are vented."""
+        self.write({"j.csv": JUNCTIONS.replace(",20\n", ",200\n")})
+        network, wall = ONE_WAY.split("[material]")
+        wall = changed(changed(changed(wall, "step", ""), "end", 'end = "0.5 ms"'), "every_steps", "every_steps = 40")
+        wall = changed(changed(wall, "critical_stretch", "critical_stretch = 0.01"), "ramp_time", 'ramp_time = "0.2 ms"') + '[boundary]\nends = "sliding"\n'
+        area = math.pi * (2.25e-3**2 - 1.5e-3**2)
+        for name, particles, spacing in (("whole", 'spacing = "250 um"', "250 um"), ("piece", "particles = 4400", f"{0.75e-3 / 5!r} m")):
+            with self.subTest(name):
+                c = self.run_well(f"{network}[material]{changed(wall, 'spacing', particles)}", name)
+                vessel, length, start = (c["coupling"][key] for key in ("vessel", "simulated_length_m", "simulated_from_m"))
+                self.assertEqual(c["coupling"]["net_pressure_Pa"], [200 * MMHG] * 3)
+                alone = changed(wall, "spacing", f'spacing = "{spacing}"').replace("[load]", '[load]\npressure = "200 mmHg"')
+                radii = vessel["radius_m"], vessel["radius_m"] + vessel["wall_thickness_m"]
+                alone = self.run_well('[vessel]\ninner_radius = "{!r} m"\nouter_radius = "{!r} m"\nlength = "{!r} m"\n'.format(*radii, length)
+                                      + f"[material]{alone}", "alone")
+                self.assertIsNotNone(alone["rupture_onset_s"])
+                self.assertLess(self.rows("alone/history.csv")[-1]["pressure_Pa"], 199 * MMHG)
+                for key in set(c) - {"network", "coupling"}:
+                    self.assertEqual(c[key], alone[key], key)
+                self.assertEqual((self.path / name / "history.csv").read_bytes(), (self.path / "alone/history.csv").read_bytes())
+                self.assert_same_data(f"{name}/particles.h5", "alone/particles.h5")
+        self.assert_close(c["coupling"]["spacing_of_constant_N_m"], (area * 6e-3 / 4400) ** (1 / 3), 1e-12)
+        self.assert_close(length, 4400 * 150e-6**3 / area, 1e-12)
+        self.assertAlmostEqual(start + length / 2, 3e-3, delta=1e-15)
+
+    def test_a_vessel_of_a_tree(self):
+        """What the network says of the vessel is what a plain network scene says; the wall is loaded with it."""
+        plain = TREE.split("[discretisation]")[0].replace('model = "coupled"', 'model = "network"').replace("[coupling]", "[network]")
+        plain = changed(plain, "vessel", 'query = ["artery.0", "vein.1"]')
+        coupled = changed(TREE, "end", 'end = "20 us"')
+        weight, ends = "flow.acceleration=['4 m/s2', '-9 m/s2', '2 m/s2']", {}
+        runs = [("implicit", [], None), ("explicit", [weight], 2)]
+        for (tier, settings, _), p, c in zip(runs, at_once(self.run_well, [(plain, f"plain_{t}", *s, f"network.tier={t}") for t, s, _ in runs]),
+                                             at_once(lambda t, s, ranks: self.run_well(coupled, t, *s, f"network.tier={t}", "network.query=['vein.1']",
+                                                                                       ranks=ranks), runs)):
+            vessel = c["coupling"]["vessel"]
+            self.assertEqual(vessel, p["network"]["queries"][0])
+            self.assertEqual(c["network"]["queries"], p["network"]["queries"][1:])
+            ends[tier] = vessel["pressure_from_Pa"], vessel["pressure_to_Pa"]
+            expected = [ends[tier][0], sum(ends[tier]) / 2, ends[tier][1]]
+            self.assertGreater(expected[0] - expected[2], 100)
+            for net, pressure in zip(c["coupling"]["net_pressure_Pa"], expected, strict=True):
+                self.assert_close(net, pressure, 1e-14)
+            self.assert_close(self.rows(f"{tier}/history.csv")[-1]["pressure_Pa"], expected[0], 1e-14)
+            self.assertFalse((self.path / tier / "coupling.csv").exists())
+            for key in ("windows", "leak_m3_s", "leaked_m3", "max_imbalance"):
+                self.assertIsNone(c["coupling"][key])
+        self.assertGreater(abs(ends["implicit"][0] - ends["explicit"][0]), 10)  # the weight is there
+
+    def test_every_term_of_the_net_pressure(self):
+        """Eq. (7); P_g twice: across the direction between heart and vein, and along it, where it changes the flow."""
+        flow, places = 180 * MMHG / (FEEDER + ARTERY + BED), (0, 0.5, 1)
+        heart = [200 * MMHG - flow * (FEEDER + place * ARTERY) for place in places]
+        tension, atmosphere, cuff = 3 * MMHG, -5 * MMHG, 11 * MMHG
+        terms = [f"body.{key} mmHg" for key in ("tissue_tension=3", "atmosphere=-5", "compression=11")]
+        weight = [-9.81 * BLOOD_DENSITY * (10e-3 + place * 10e-3) for place in places]
+        driving = 180 * MMHG + 7 * BLOOD_DENSITY * 0.15  # heart and vein are 150 mm apart
+        along = [200 * MMHG + 7 * BLOOD_DENSITY * (0.1 - 2e-3 + place * 6e-3) - driving * flow / (180 * MMHG) * (FEEDER + place * ARTERY)
+                 for place in places]
+        cases = [([terms[2], "body.compression_from=-1 mm", "body.compression_to=2 mm"], [heart[0], heart[1] - cuff, heart[2]]),
+                 ([terms[2], "body.compression_axis=y", "body.compression_to=16 mm"], [heart[0] - cuff, heart[1] - cuff, heart[2]]),
+                 (["flow.acceleration=['7 m/s2','0 m/s2','0 m/s2']"], along),
+                 ([*terms, "flow.acceleration=['0 m/s2','-9.81 m/s2','3 m/s2']"],
+                  [p + g - tension - atmosphere - cuff for p, g in zip(heart, weight)])]
+        scene = changed(changed(ONE_WAY, "end", 'end = "20 us"'), "ramp_time", 'ramp_time = "40 us"')
+        runs = at_once(self.run_well, [(scene, str(i), "load.schedule=ramp", *settings) for i, (settings, _) in enumerate(cases)])
+        for i, ((settings, expected), run) in enumerate(zip(cases, runs)):
+            for net, pressure in zip(run["coupling"]["net_pressure_Pa"], expected, strict=True):
+                self.assertAlmostEqual(net, pressure, delta=1e-7, msg=settings)
+            # Half way up the ramp the wall has half of the largest.
+            self.assertAlmostEqual(self.rows(f"{i}/history.csv")[-1]["pressure_Pa"], max(expected) / 2, delta=1e-7)
+
+    def test_a_cuff_is_on_the_body_and_not_on_what_is_shown_of_it(self):
+        c = self.run_well(changed(TREE, "end", 'end = "20 us"') + CUFF, "out", "body.compression_from=-400 mm", "body.compression_to=-100 mm",
+                          "network.shown_subtree=artery.11111111")["coupling"]
+        self.assert_close(c["net_pressure_Pa"][0], c["vessel"]["pressure_from_Pa"] - 10 * MMHG, 1e-14)
+
+    def test_the_load_falls_along_the_vessel(self):
+        """A vessel with nearly the whole drop bulges most where blood enters; turned round, the picture is mirrored."""
+        def bulge(name, ends):
+            self.write({f"{name}.csv": VESSELS.replace("neck,brain", ends).replace("1.2,300", "1.5,0.6").replace("0.3,50", "1.5,0.6")})
+            self.run_well(changed(ONE_WAY, "critical_stretch", ""), name, "time.end=1 ms", "output.every_steps=200", f"network.files=['j.csv', '{name}.csv']")
+            with h5py.File(self.path / name / "particles.h5") as file:
+                x, u = file["reference_position"][:], file["displacement/000200"][:]
+            radial = (x[:, :2] * u[:, :2]).sum(axis=1) / np.hypot(x[:, 0], x[:, 1])
+            row = np.rint(x[:, 2] / 250e-6 - 0.5).astype(int)
+            return np.bincount(row, radial) / np.bincount(row)
+
+        there, back = at_once(bulge, [("there", "neck,brain"), ("back", "brain,neck")])
+        self.assertEqual(len(there), 24)
+        self.assertGreater(there[:12].mean() / there[12:].mean(), 1.3)
+        np.testing.assert_allclose(there, back[::-1], atol=1e-4 * there.max())
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=1)
