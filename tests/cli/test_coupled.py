@@ -380,6 +380,77 @@ class Coupled(unittest.TestCase):
         self.assertGreater(there[:12].mean() / there[12:].mean(), 1.3)
         np.testing.assert_allclose(there, back[::-1], atol=1e-4 * there.max())
 
+    # -- two ways ------------------------------------------------------------------------------------------------
+
+    def test_bleeding_agrees_with_two_resistances_and_an_orifice(self):
+        """In every row, with a cuff on the artery's end, tissue all around, and weight; and the wall feels it."""
+        results = self.run_well(TWO_WAY, "out", "body.tissue_tension=3 mmHg", "body.compression=6 mmHg", "body.compression_from=2 mm",
+                                "flow.acceleration=['0 m/s2','-9.81 m/s2','0 m/s2']", "output.fields=[]")
+        surroundings = [3 * MMHG, 3 * MMHG, 9 * MMHG], [-9.81 * BLOOD_DENSITY * y for y in (10e-3, 15e-3, 20e-3)]
+        rows, history = self.rows("out/coupling.csv"), self.rows("out/history.csv")
+        self.assertEqual([row["time_s"] for row in rows], [row["time_s"] for row in history])
+        self.assertEqual(len(rows), 81)
+        closed = bleeding(1, 1, 0, *surroundings)[0]
+        largest, factor, leaked, before = max(closed), 1, 0, None
+        for row, wall in zip(rows, history):
+            share = 0.5 - 0.5 * math.cos(math.pi * min(row["time_s"] / 0.8e-3, 1))
+            self.assertAlmostEqual(row["schedule"], share, delta=1e-14)
+            net, leak, inflow, outflow = bleeding(share, row["resistance_factor"], row["opening_m2"], *surroundings)
+            found = [row[f"net_pressure_{place}_Pa"] for place in ("from", "middle", "to")]
+            for a, b in zip(found, net):
+                self.assertAlmostEqual(a, b, delta=1e-9 * 200 * MMHG, msg=row)
+            for key, expected in (("leak", leak), ("inflow", inflow), ("outflow", outflow)):
+                self.assertAlmostEqual(row[f"{key}_m3_s"], expected, delta=1e-9 * inflow, msg=row)
+            self.assertLessEqual(row["imbalance"], 1e-10)
+            self.assertAlmostEqual(row["inflow_m3_s"] - row["outflow_m3_s"], row["leak_m3_s"], delta=1e-10 * inflow)
+            # The wall has the pressure of the exchange before, raised by the schedule, and the opening of now.
+            self.assertAlmostEqual(wall["pressure_Pa"], share * largest, delta=1e-12 * 200 * MMHG)
+            self.assertEqual((wall["opening_m2"], wall["leak_m3_s"]), (row["opening_m2"], row["leak_m3_s"]))
+            largest = max(found) / share if share else largest
+            # The lumen widens, if less at held ends; from rupture on it counts as it was then.
+            if row["time_s"] < results["rupture_onset_s"]:
+                widest = 1 - (1 + wall["max_displacement_m"] / 1.5e-3) ** -4
+                factor = row["resistance_factor"]
+                self.assertTrue(0.2 * widest <= 1 - factor <= widest, row)
+            elif row["time_s"] > results["rupture_onset_s"] + 20e-6:
+                self.assertEqual(row["resistance_factor"], rows[-1]["resistance_factor"])
+            leaked += before["leak_m3_s"] * (row["time_s"] - before["time_s"]) if before else 0
+            before = row
+        # It tore and bled as much as the feeder lets through, and that relieved it.
+        self.assertLess(rows[-1]["net_pressure_middle_Pa"], 0.2 * closed[1])
+        self.assert_close(rows[-1]["leak_m3_s"], 200 * MMHG / FEEDER, 0.1)
+        c = results["coupling"]
+        self.assertEqual((c["windows"], c["mode"], c["leak_m3_s"]), (81, "two_way", rows[-1]["leak_m3_s"]))
+        self.assert_close(c["leaked_m3"], leaked, 1e-12)
+        self.assertEqual(c["max_imbalance"], max(row["imbalance"] for row in rows))
+        self.assertEqual(c["net_pressure_at_end_Pa"], found)
+        for first, expected in zip(c["net_pressure_Pa"], closed, strict=True):
+            self.assertAlmostEqual(first, expected, delta=1e-7)
+        self.assertLess(abs(results["energy_drift"]), 1e-3)
+
+    def test_finer_windows_converge(self):
+        """With the first order where the wall bears its load. Fragments are chaotic: of a torn one, what it leaked settles."""
+        # Resistances alike, so that the lumen matters.
+        self.write({"soft.csv": VESSELS.replace("1.2,300", "1.5,10").replace("0.3,50", "1.5,3")})
+        soft = ["network.files=['j.csv', 'soft.csv']", "material.young_modulus=100 kPa", "material.critical_stretch=2", "time.step=10 us",
+                "time.end=2.56 ms", "load.ramp_time=2.56 ms"]
+        windows = 80, 40, 20  # us
+        runs = at_once(self.run_well, [(TWO_WAY, f"{name}_{window}", f"coupling.window={window} us", "output.every_steps=256", *settings)
+                                       for name, settings in (("soft", soft), ("torn", [])) for window in windows])
+        self.assertEqual([run["coupling"]["windows"] for run in runs[:3]], [2560 // window + 1 for window in windows])
+        factors = [self.rows(f"soft_{window}/coupling.csv")[-1]["resistance_factor"] for window in windows]
+        self.assertLess(factors[2], 0.7)  # a third of its resistance is gone
+        for coarse, middle, fine in (factors, [run["max_displacement_m"] for run in runs[:3]],
+                                     *zip(*(run["coupling"]["net_pressure_at_end_Pa"] for run in runs[:3]))):
+            self.assertTrue(0.3 < (fine - middle) / (middle - coarse) < 0.7, (coarse, middle, fine))
+        coarse, middle, fine = (run["coupling"]["leaked_m3"] for run in runs[3:])
+        self.assertLess(abs(fine - middle), 0.7 * abs(middle - coarse), (coarse, middle, fine))
+        self.assert_close(middle, fine, 0.04)
+
+    def test_a_window_by_default_is_never_shorter_than_a_step(self):
+        results = self.run_well(changed(TWO_WAY, "window", ""), "out", "time.end=0.2 ms")  # 40 steps
+        self.assertEqual(results["coupling"]["windows"], 41)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=1)
