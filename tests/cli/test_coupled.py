@@ -451,6 +451,52 @@ class Coupled(unittest.TestCase):
         results = self.run_well(changed(TWO_WAY, "window", ""), "out", "time.end=0.2 ms")  # 40 steps
         self.assertEqual(results["coupling"]["windows"], 41)
 
+    # -- tiers, ranks, threads, restarts -------------------------------------------------------------------------
+
+    def test_tiers_agree(self):
+        runs = at_once(self.run_well, [(TORN_TREE, tier, f"network.tier={tier}", "material.young_modulus=1 MPa", "material.critical_stretch=2")
+                                       for tier in ("implicit", "explicit")])
+        self.assertLess(self.rows("implicit/coupling.csv")[-1]["resistance_factor"], 0.99)
+        for one, other in zip(*(run["coupling"]["net_pressure_at_end_Pa"] for run in runs), strict=True):
+            self.assert_close(one, other, 1e-9)
+
+    def test_ranks_and_threads_change_nothing(self):
+        """A vessel of a file's network and one of a tree, that tear and bleed into it."""
+        for name, scene, table, first, second in (("file", changed(TWO_WAY, "end", 'end = "1 ms"'), "vessels.csv", (None, 1), (2, 2)),
+                                                  ("tree", TORN_TREE, "generations.csv", (None, 2), (2, 1))):
+            with self.subTest(name):
+                one, other = (self.run_well(scene, folder, "output.every_steps=40", ranks=ranks, threads=threads)
+                              for folder, (ranks, threads) in (("one", first), ("other", second)))
+                self.assertGreater(one["coupling"]["leaked_m3"], 0)
+                self.assertLessEqual(one["coupling"]["max_imbalance"], 1e-10)
+                self.assertEqual(other, one)
+                for file in ("history.csv", "coupling.csv", table):
+                    self.assertEqual((self.path / "one" / file).read_bytes(), (self.path / "other" / file).read_bytes(), file)
+                for file in ("particles.h5", "network.h5"):
+                    self.assert_same_data(f"one/{file}", f"other/{file}")
+
+    def test_restart_goes_on_bit_by_bit(self):
+        results = self.run_well(ONE_WAY, "whole", "time.end=1 ms", "output.checkpoint_every=130")
+        whole = self.rows("whole/history.csv")
+        self.assertGreater(whole[32]["broken_bonds"], 0)  # at step 128
+        more = ["--restart", "whole/checkpoints/step_000130.h5"]
+        rest = self.run_well(ONE_WAY, "rest", "time.end=1 ms", more=more, ranks=2)
+        for key in set(results) - {"energy_drift"}:
+            self.assertEqual(rest[key], results[key], key)
+        for row, expected in zip(self.rows("rest/history.csv")[1:], whole[33:], strict=True):
+            # Work is a sum that is exact until it is stored, rounded, with a checkpoint.
+            self.assert_close(row.pop("external_work_J"), expected.pop("external_work_J"), 1e-14)
+            self.assertEqual(row, expected)
+        with h5py.File(self.path / "whole/particles.h5") as a, h5py.File(self.path / "rest/particles_from_000130.h5") as b:
+            for field in ("position", "velocity", "damage"):
+                self.assertTrue((a[f"{field}/000200"][:] == b[f"{field}/000200"][:]).all(), field)
+        # The geometry is the network's, and a checkpoint is of one body.
+        self.write({"v.csv": VESSELS.replace(",6,0.75", ",7,0.75")})
+        refused = self.rhexis("run", "rest.toml", "-o", "x", *more)
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("another body", refused.stderr)
+        self.assertFalse((self.path / "x").exists())
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=1)
