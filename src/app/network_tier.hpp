@@ -53,6 +53,8 @@ struct NetworkSolution {
   std::vector<QueriedVessel> at_risk;  ///< [screening->top]
   std::vector<double> leaks;           ///< m3/s, of the injuries that earlier events left
   std::vector<VesselRow> table;
+  /// Along each axis (m), of all vessels; none without coordinates.
+  std::optional<std::array<std::pair<double, double>, 3>> extent;
   hemodynamics::VesselLines lines;  ///< to store and draw: this rank's
   std::int64_t shown = 0;           ///< of all ranks
   std::vector<std::string> warnings;

@@ -135,7 +135,7 @@ WRONG = [
     ("rows without a choice", changed(TWO_WAY, "spacing", ""), [r'c\.toml: discretisation\.particles \(default "auto"\): ', "10 spacings"], SHORT),
     ("shorter than a spacing", changed(TWO_WAY, "spacing", 'spacing = "350 um"'),
      [r"c\.toml:\d+: (coupling\.vessel|discretisation\.spacing) = ", "300 um"], SHORT),
-    ("collapse", TWO_WAY + '[body]\ncompression = "300 mmHg"\n', [r"c\.toml:\d+: (body|coupling)\.\w+ = ", "artery", r"Eq\. \(?7", "collapse", "-1.. mmHg"]),
+    ("collapse", TWO_WAY + '[body]\ncompression = "300 mmHg"\n', [r"c\.toml:\d+: (body|coupling)\.\w+ = ", "artery", r"Eq\. \(?7", "collapse", r"-1..\.\d mmHg"]),
     ("collapse by tissue", TWO_WAY + '[body]\ntissue_tension = "300 mmHg"\n', [r"c\.toml:\d+: (body|coupling)\.\w+ = ", "artery", "collapse"]),
     ("window below a step", changed(TWO_WAY, "window", 'window = "4 us"'), [r'c\.toml:14: coupling\.window = "4 us": ', "5 us"]),
     ("window beyond the end", changed(TWO_WAY, "window", 'window = "2 ms"'), [r'c\.toml:14: coupling\.window = "2 ms": ', r"time\.end = 1\.6 ms"]),
