@@ -54,7 +54,7 @@ void check_network(const Configuration& c, parallel::Communicator comm) {
   const auto vessels = static_cast<double>(tree.vessels());
   const network::TreeVessel last = tree.vessel(tree.vessels() - 2);
   console.item(
-      "first artery",
+      "first",
       fmt::format("artery of radius {}, length {}, wall {}", quantity(tree.vessel(0).radius, "m"),
                   quantity(tree.vessel(0).length, "m"), quantity(tree.vessel(0).wall_thickness, "m")));
   console.item("last", fmt::format("artery of radius {}, length {}, wall {}", quantity(last.radius, "m"),
