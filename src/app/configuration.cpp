@@ -6,15 +6,14 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "ensemble/walls.hpp"
 #include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/units.hpp"
-#include "peridynamics/bond_family.hpp"
-#include "peridynamics/cross_section.hpp"
-#include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
+#include "peridynamics/time_steps.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -33,29 +32,17 @@ std::string read_on_root(const std::string& file, parallel::Communicator comm) {
   return comm.broadcast(text);
 }
 
-/// The stable time step, and the one to take: the user's, or a share of the stable one that divides the end
-/// time evenly.
 void settle_time_step(Configuration& c) {
   const peridynamics::Lattice lattice = peridynamics::make_lattice(c.vessel);
   peridynamics::make_pressure_layer(c.vessel, lattice);  // throws where no particle would be loaded
-  c.stable_time_step = peridynamics::stable_time_step(
-      lattice, peridynamics::make_families(lattice),
-      peridynamics::Pmb::bond_constant(c.vessel.young_modulus, *c.vessel.horizon), c.vessel.density);
-  c.time_step = c.vessel.time_step.value_or(c.vessel.step_fraction * c.stable_time_step);
-  if (c.time_step > c.stable_time_step) {
-    throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +
-                         quantity(0.9995 * c.stable_time_step, "s", 3) + "; take less, or \"auto\" for " +
-                         quantity(c.vessel.step_fraction * c.stable_time_step, "s"),
-                     "time.step");
-  }
-  const double steps = c.vessel.end_time / c.time_step;
-  if (steps > 1e12) throw InputError("the run would take " + text(steps) + " steps", "time.end");
-  c.steps = std::max(1L, static_cast<long>(std::ceil(steps - 1e-6)));
-  if (!c.vessel.time_step) {
-    c.time_step = c.vessel.end_time / static_cast<double>(c.steps);
-  } else if (std::abs(steps - static_cast<double>(c.steps)) > 1e-3) {
-    c.warnings.push_back("time.end is not a whole number of steps; the run ends at " +
-                         quantity(static_cast<double>(c.steps) * c.time_step, "s", 6));
+  const peridynamics::TimeSteps time =
+      peridynamics::time_steps(c.vessel, lattice, peridynamics::make_families(lattice));
+  c.stable_time_step = time.stable;
+  c.time_step = time.step;
+  c.steps = time.count;
+  const double end = static_cast<double>(c.steps) * c.time_step;
+  if (std::abs(c.vessel.end_time - end) > 1e-3 * c.time_step) {
+    c.warnings.push_back("time.end is not a whole number of steps; the run ends at " + quantity(end, "s", 6));
   }
 }
 
@@ -89,17 +76,18 @@ void append(ParameterList& all, const ParameterList& part) {
 }
 
 ParameterList declare_scene(Configuration& c) {
-  return {
-      {"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
-      {"scene.model",
-       &c.model,
-       "",
-       "\"vessel\"",
-       "What is simulated: the rupture of one vessel's wall, the flow in a network of vessels, or both: the "
-       "rupture of a vessel of a network.",
-       "Sec. 3.3",
-       {},
-       {"vessel", "network", "coupled"}}};
+  return {{"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
+          {"scene.model",
+           &c.model,
+           "",
+           "\"vessel\"",
+           "What is simulated: the rupture of one vessel's wall; the flow in a network of vessels; both: the "
+           "rupture of a vessel of a network; or how probably a vessel ruptures, from many walls whose "
+           "properties "
+           "scatter.",
+           "Sec. 3.3",
+           {},
+           {"vessel", "network", "coupled", "ensemble"}}};
 }
 
 ParameterList declare_vessel(Configuration& c) {
@@ -131,10 +119,32 @@ ParameterList declare_coupled(Configuration& c) {
   return all;
 }
 
+/// Keys of a vessel that an ensemble takes over, or that do nothing there: walls take a stable time step
+/// each, and are simulated to the onset of rupture, before any venting and without output.
+bool ensemble_settles(const std::string& key) {
+  return input::section_of(key) == "output" || key == "load.pressure" || key == "load.table" ||
+         key == "load.venting" || key == "load.supply_area" || key == "load.discharge_coefficient" ||
+         key == "load.blood_density" || key == "time.step";
+}
+
+ParameterList declare_ensemble(Configuration& c) {
+  ParameterList all = ensemble::declare(c.ensemble);
+  for (Parameter& parameter : declare_vessel(c)) {
+    if (parameter.key == "load.schedule") std::erase(parameter.choices, "table");
+    if (!ensemble_settles(parameter.key)) all.push_back(parameter);
+  }
+  return all;
+}
+
 /// The keys of the scene's model, as the document gives it; a key of another model's is refused.
 ParameterList declare_model(Configuration& c, const input::Document& document) {
-  const std::pair<std::string, ParameterList> models[] = {
-      {"vessel", declare_vessel(c)}, {"network", declare_network(c)}, {"coupled", declare_coupled(c)}};
+  std::pair<std::string, ParameterList> models[] = {{"vessel", declare_vessel(c)},
+                                                    {"network", declare_network(c)},
+                                                    {"coupled", declare_coupled(c)},
+                                                    {"ensemble", declare_ensemble(c)}};
+  for (auto& [name, keys] : models) {
+    if (name != "ensemble") append(keys, insitu::declare(c.insitu));
+  }
   std::string model = "vessel";
   for (const input::Entry& entry : document.entries) {
     if (entry.key != "scene.model") continue;
@@ -163,7 +173,6 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
     refuse(document.place(entry), input::section_of(entry.key));
   ParameterList all = declare_scene(c);
   append(all, *chosen);
-  append(all, insitu::declare(c.insitu));
   return all;
 }
 
@@ -171,7 +180,15 @@ void resolve_vessel(Configuration& c) {
   const auto warnings = peridynamics::resolve(c.vessel);
   c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
   settle_time_step(c);
+  if (c.is_ensemble()) return;
   c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
+}
+
+void resolve_ensemble(Configuration& c) {
+  ensemble::resolve(c.ensemble);
+  resolve_vessel(c);  // the mean one
+  const auto warnings = ensemble::check_walls(c.ensemble, c.vessel);
+  c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
 }
 
 void resolve_network(Configuration& c, parallel::Communicator comm) {
@@ -252,6 +269,7 @@ ParameterList declare(Configuration& c) {
   append(all, declare_vessel(c));
   append(all, declare_network(c));
   append(all, coupling::declare(c.coupling));
+  append(all, ensemble::declare(c.ensemble));
   append(all, insitu::declare(c.insitu));
   return all;
 }
@@ -265,6 +283,8 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
   try {
     if (c.model == "vessel") {
       resolve_vessel(c);
+    } else if (c.is_ensemble()) {
+      resolve_ensemble(c);
     } else {
       resolve_network(c, comm);
       if (c.is_coupled()) resolve_coupling(c);

@@ -7,6 +7,7 @@
 
 #include "core/parameter.hpp"
 #include "coupling/parameters.hpp"
+#include "ensemble/parameters.hpp"
 #include "hemodynamics/parameters.hpp"
 #include "input/reader.hpp"
 #include "insitu/parameters.hpp"
@@ -20,17 +21,19 @@ namespace rhexis::app {
 struct Configuration {
   std::string file;
   std::string title;
-  std::string model;  ///< "vessel" | "network" | "coupled"
+  std::string model;  ///< "vessel" | "network" | "coupled" | "ensemble"
   peridynamics::Parameters vessel;
   network::Parameters network;
   hemodynamics::Parameters hemodynamics;
   coupling::Parameters coupling;
+  ensemble::Parameters ensemble;
   output::Parameters output;
   insitu::Parameters insitu;
 
   network::TreeRules tree;  ///< where network.source = "tree"
 
   bool is_coupled() const { return model == "coupled"; }
+  bool is_ensemble() const { return model == "ensemble"; }
 
   double stable_time_step = 0;  ///< s
   double time_step = 0;         ///< s

@@ -70,7 +70,7 @@ void RunBase::say_input() {
 void RunBase::say_surroundings() {
   console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
                                         parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
-  console_.item("pictures", renderer_);
+  if (!renderer_.empty()) console_.item("pictures", renderer_);
   console_.item("results", options_.directory.string());
 }
 

@@ -52,7 +52,8 @@ void to_json(Json& json, const Results& results) {
                        {"opening_area_m2", or_null(results.opening_area_m2)},
                        {"energy_drift", or_null(results.energy_drift)},
                        {"network", results.network},
-                       {"coupling", results.coupling}});
+                       {"coupling", results.coupling},
+                       {"ensemble", results.ensemble}});
 }
 
 void to_json(Json& json, const Performance& performance) {

@@ -40,6 +40,7 @@ struct Results {
   std::optional<double> energy_drift = {};
   NetworkResults network = {};
   nlohmann::ordered_json coupling = nullptr;  ///< the vessel's place in the network, and what they exchanged
+  nlohmann::ordered_json ensemble = nullptr;  ///< pressures, samples and their cost
 };
 
 /// The `performance` part; a member without a value is written as null.

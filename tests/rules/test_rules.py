@@ -20,9 +20,10 @@ MAY_INCLUDE = {
     "network": {"parallel"},
     "hemodynamics": {"network", "parallel"},
     "coupling": {"parallel", "network", "hemodynamics", "peridynamics"},
+    "ensemble": {"parallel", "network", "peridynamics"},
     "output": {"parallel"},
     "insitu": {"parallel"},
-    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "output", "insitu"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "ensemble", "output", "insitu"},
 }
 
 
