@@ -39,6 +39,11 @@ std::vector<std::string> check_walls(const Parameters& p, const peridynamics::Pa
     if (wall < 2.999 * *v.spacing) ++thin;
   }
   std::vector<std::string> warnings;
+  if (p.thickness_spread > 0 && v.cross_section == "lattice") {
+    warnings.emplace_back(
+        "on a lattice, thickness changes by whole columns, so that many walls are alike; "
+        "discretisation.cross_section = \"polar\" follows it");
+  }
   if (thin > 0 && mean >= 2.999 * *v.spacing) {
     warnings.push_back(std::to_string(thin) + " of " + std::to_string(p.samples) +
                        " walls are less than 3 spacings thick; their stiffness and strength mean little");
