@@ -154,23 +154,31 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
   for (const auto& [name, keys] : models) {
     if (name == model) chosen = &keys;
   }
-  const auto has = [](const ParameterList& keys, const std::string& section) {
+  const auto has_section = [](const ParameterList& keys, const std::string& section) {
     const auto sections = input::sections_of(keys);
     return std::find(sections.begin(), sections.end(), section) != sections.end();
   };
-  const auto refuse = [&](const std::string& place, const std::string& section) {
-    if (has(*chosen, section)) return;
-    for (const auto& [name, keys] : models) {
-      if (!has(keys, section)) continue;
-      throw InputError(place + ": section [" + section + "] belongs to scenes with scene.model = \"" + name +
+  const auto has_key = [](const ParameterList& keys, const std::string& key) {
+    return input::find(keys, key) != nullptr;
+  };
+  const auto refuse = [&](const std::string& place, const std::string& what, const std::string& name,
+                          const auto& has) {
+    if (has(*chosen, name)) return;
+    for (const auto& [other, keys] : models) {
+      if (!has(keys, name)) continue;
+      throw InputError(place + ": " + what + " belongs to scenes with scene.model = \"" + other +
                        "\"; this scene's is \"" + model + "\"");
     }
   };
   for (const input::Section& section : document.sections) {
-    refuse(document.file + ":" + std::to_string(section.line), section.name);
+    refuse(document.file + ":" + std::to_string(section.line), "section [" + section.name + "]", section.name,
+           has_section);
   }
-  for (const input::Entry& entry : document.entries)
-    refuse(document.place(entry), input::section_of(entry.key));
+  for (const input::Entry& entry : document.entries) {
+    const std::string section = input::section_of(entry.key);
+    refuse(document.place(entry), "section [" + section + "]", section, has_section);
+    refuse(document.place(entry), "this key", entry.key, has_key);
+  }
   ParameterList all = declare_scene(c);
   append(all, *chosen);
   return all;

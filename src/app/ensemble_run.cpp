@@ -311,11 +311,11 @@ void EnsembleRun::say_summary() {
                               p.mean_onset ? quantity(*p.mean_onset, "s", 3) : "none"));
   }
   const Json& each = results_.ensemble["rank_seconds_per_sample"];
-  console_.item(
-      "samples",
-      fmt::format("{} in all, {} new; {}", grouped(static_cast<long long>(samples_.size())),
-                  grouped(static_cast<long long>(samples_.size() - earlier_)),
-                  each.is_null() ? "none simulated" : duration(each.get<double>()) + " each on one rank"));
+  console_.item("samples",
+                fmt::format("{} in all, {} new; {}", grouped(static_cast<long long>(samples_.size())),
+                            grouped(static_cast<long long>(samples_.size() - earlier_)),
+                            each.is_null() ? "none simulated"
+                                           : quantity(each.get<double>(), "s", 3) + " each on one rank"));
   say_cost(performance());
 }
 

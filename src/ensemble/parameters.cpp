@@ -37,7 +37,9 @@ ParameterList declare(Parameters& p) {
   };
 }
 
-void resolve(Parameters& p) {
+namespace {
+
+void resolve_pressures(Parameters& p) {
   const bool range = p.lowest_pressure || p.highest_pressure || p.pressure_count;
   if (range && !p.pressures.empty()) {
     throw InputError(
@@ -67,6 +69,18 @@ void resolve(Parameters& p) {
   for (std::int64_t i = 0; i < *p.pressure_count; ++i) {
     p.pressures.push_back(std::lerp(*p.lowest_pressure, *p.highest_pressure,
                                     static_cast<double>(i) / static_cast<double>(*p.pressure_count - 1)));
+  }
+}
+
+}  // namespace
+
+void resolve(Parameters& p) {
+  resolve_pressures(p);
+  constexpr std::int64_t most = 10'000'000;
+  if (p.vessels() > most) {
+    throw InputError(std::to_string(p.vessels()) + " samples with " + std::to_string(p.pressures.size()) +
+                         " pressures; at most 10 million are possible",
+                     "ensemble.samples");
   }
 }
 

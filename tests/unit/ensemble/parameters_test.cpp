@@ -41,6 +41,7 @@ TEST(EnsembleParameters, ExactlyOneWayToGivePressures) {
   EXPECT_EQ(key_at_fault({.lowest_pressure = 1e4, .pressure_count = 3}), "ensemble.highest_pressure");
   EXPECT_EQ(key_at_fault({.lowest_pressure = 2e4, .highest_pressure = 2e4, .pressure_count = 3}),
             "ensemble.highest_pressure");
+  EXPECT_EQ(key_at_fault({.pressures = {1e4, 2e4}, .samples = 5'000'001}), "ensemble.samples");
 }
 
 }  // namespace
