@@ -20,16 +20,19 @@ particle_producer = helper.GetTrivialProducer("particles").GetClientSideObject()
 network_producer = helper.GetTrivialProducer("network").GetClientSideObject()
 network_picture = NetworkPicture()
 vessel_picture = None
+shown_event = None  # of a cascade; every one is another vessel
 
 
 def catalyst_execute(info):
-    global vessel_picture
+    global vessel_picture, shown_event
     particles, network = particle_producer.GetOutputDataObject(0), network_producer.GetOutputDataObject(0)
-    if vessel_picture is None:
-        vessel_picture = VesselPicture(particles)
+    event = field_value(network, "event")
+    if event != shown_event:
+        vessel_picture, shown_event = VesselPicture(particles), event
     above = network_picture.rows(network, info.time)
     leak = field_value(network, "leak")
-    note = f"      leak = {6e7 * leak:.3g} mL/min" if leak else ""
+    note = f"      event {event:.0f}" if event else ""
+    note += f"      leak = {6e7 * leak:.3g} mL/min" if leak else ""
     below = vessel_picture.rows(particles, info.timestep, info.time, field_value(particles, "pressure"), note)
     if above is not None:
         write_png(os.path.join(image_directory, f"coupled_{info.timestep:06d}.png"), numpy.concatenate([above, below]))

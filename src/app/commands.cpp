@@ -8,8 +8,8 @@
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
+#include "app/coupled_run.hpp"
 #include "app/ensemble_run.hpp"
-#include "app/network_coupling.hpp"
 #include "app/network_run.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"

@@ -11,6 +11,7 @@
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/units.hpp"
+#include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
 #include "peridynamics/time_steps.hpp"
@@ -101,7 +102,13 @@ ParameterList declare_vessel(Configuration& c) {
 ParameterList declare_network(Configuration& c) {
   ParameterList all = network::declare(c.network);
   append(all, hemodynamics::declare(c.hemodynamics));
+  append(all, screening::declare(c.screening));
   return all;
+}
+
+/// Keys of a network that its vessel takes over where they are coupled.
+bool vessel_knows(const std::string& key) {
+  return key == "wall.young_modulus" || key == "wall.poisson_ratio" || key == "screening.critical_stretch";
 }
 
 /// Keys of a vessel that its network takes over where they are coupled.
@@ -115,7 +122,9 @@ ParameterList declare_coupled(Configuration& c) {
   for (const Parameter& parameter : declare_vessel(c)) {
     if (!network_knows(parameter.key)) all.push_back(parameter);
   }
-  append(all, declare_network(c));
+  for (const Parameter& parameter : declare_network(c)) {
+    if (!vessel_knows(parameter.key)) all.push_back(parameter);
+  }
   return all;
 }
 
@@ -208,7 +217,16 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
   if (c.hemodynamics.phase_separation && !explicit_tier) {
     throw InputError("phase separation needs network.tier = \"explicit\"", "blood.phase_separation");
   }
+  if (n.tier == "distributed") {
+    if (c.screening.top > 0)
+      throw InputError("vessels are screened with network.tier = \"implicit\" or \"explicit\"",
+                       "screening.top");
+    if (!n.weakness.vessels.empty() || !n.weakness.subtrees.empty())
+      throw InputError("weak walls need network.tier = \"implicit\" or \"explicit\"", "weakness.vessels");
+  }
   if (n.source == "file") {
+    if (!n.weakness.subtrees.empty())
+      throw InputError("only a tree has subtrees; name the vessels", "weakness.subtrees");
     if (n.files.empty() || n.files.size() > 2) {
       throw InputError("name one VTP or JSON file, or two CSV files (junctions, vessels)", "network.files");
     }
@@ -234,7 +252,8 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
     }
   };
   for (const std::string& vessel : n.query) check_path(vessel, "network.query");
-  if (c.is_coupled()) check_path(c.coupling.vessel, "coupling.vessel");
+  network::WallVariation(n.weakness).mark_in_tree(n.weakness, c.tree.generations);
+  if (c.is_coupled() && !c.coupling.screens()) check_path(c.coupling.vessel, "coupling.vessel");
   check_path(n.shown_subtree, "network.shown_subtree");
   if (n.tier == "explicit" && c.tree.generations > 27) {
     throw InputError(
@@ -259,7 +278,19 @@ void resolve_coupling(Configuration& c) {
   if (p.compression_from && p.compression_to && *p.compression_from >= *p.compression_to)
     throw InputError("must be above body.compression_from", "body.compression_to");
   c.vessel.blood_density = c.hemodynamics.density;
-  c.network.query.push_back(p.vessel);
+  c.network.wall.young_modulus = c.vessel.young_modulus;
+  c.network.wall.poisson_ratio = peridynamics::Pmb::poisson_ratio;
+  c.screening.critical_stretch = c.vessel.critical_stretch;
+  if (p.events > 0 && c.network.source == "tree" && c.network.tier != "explicit")
+    throw InputError("a cascade needs network.tier = \"explicit\"", "cascade.events");
+  if (p.events > 0 && c.hemodynamics.phase_separation)
+    throw InputError("not with blood.phase_separation", "cascade.events");
+  if (p.events > 0) c.screening.top = std::max<std::int64_t>(1, c.screening.top);
+  if (p.screens()) {
+    c.screening.top = std::max<std::int64_t>(1, c.screening.top);
+  } else {
+    c.network.query.push_back(p.vessel);
+  }
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "coupling/injured_graph.hpp"
 #include "coupling/parameters.hpp"
 #include "ensemble/parameters.hpp"
 #include "hemodynamics/parameters.hpp"
@@ -15,8 +16,15 @@
 #include "output/parameters.hpp"
 #include "parallel/communicator.hpp"
 #include "peridynamics/parameters.hpp"
+#include "screening/parameters.hpp"
 
 namespace rhexis::app {
+
+/// What the earlier events of a cascade left: no input.
+struct Aftermath {
+  std::vector<coupling::Injury> injuries;
+  std::vector<std::uint32_t> settled;  ///< vessels that were simulated, whether they ruptured or held
+};
 
 struct Configuration {
   std::string file;
@@ -25,11 +33,13 @@ struct Configuration {
   peridynamics::Parameters vessel;
   network::Parameters network;
   hemodynamics::Parameters hemodynamics;
+  screening::Parameters screening;
   coupling::Parameters coupling;
   ensemble::Parameters ensemble;
   output::Parameters output;
   insitu::Parameters insitu;
 
+  Aftermath aftermath;
   network::TreeRules tree;  ///< where network.source = "tree"
 
   bool is_coupled() const { return model == "coupled"; }

@@ -2,15 +2,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/console.hpp"
 #include "app/graph_network.hpp"
 #include "app/network_tier.hpp"
 #include "app/stopwatch.hpp"
+#include "coupling/injured_graph.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/graph_flow.hpp"
 #include "hemodynamics/haematocrit.hpp"
+#include "network/tree_pair.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::app {
@@ -35,8 +38,12 @@ class ExplicitTier : public NetworkTier {
       // A tree is connected by its making.
       if (c_.network.source == "file")
         hemodynamics::check_flow_problem(network_.graph, network_.conditions, solver_options(c_));
-      for (const std::string& name : c_.network.query)
-        queried_.push_back(find_vessel(c_, network_.graph, name));
+      for (const std::string& name : c_.network.query) {
+        const bool coupled = c_.is_coupled() && name == c_.coupling.vessel;
+        queried_.push_back(
+            find_vessel(c_, network_.graph, name, coupled ? "coupling.vessel" : "network.query"));
+      }
+      if (c_.network.source == "file") mark_weak_vessels();
     });
   }
 
@@ -48,12 +55,26 @@ class ExplicitTier : public NetworkTier {
 
   std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel& queried) override {
     if (!comm_.is_root()) return nullptr;
+    if (injured_) {
+      return coupling::vessel_in_graph(injured_->graph(), injured_->conductance(), injured_->conditions(),
+                                       static_cast<std::uint32_t>(queried.vessel));
+    }
     return coupling::vessel_in_graph(network_.graph,
                                      conductances(network_.graph, mechanics_.viscosity, haematocrit_),
                                      network_.conditions, static_cast<std::uint32_t>(queried.vessel));
   }
 
  private:
+  void mark_weak_vessels() {
+    for (const std::string& name : c_.network.weakness.vessels) {
+      const std::uint32_t v = find_vessel(c_, network_.graph, name, "weakness.vessels");
+      mechanics_.variation.mark(kind_of(v), {v, v + 1});
+    }
+  }
+  network::VesselKind kind_of(std::size_t v) const {
+    return network_.graph.kind.empty() ? network::VesselKind::unknown : network_.graph.kind[v];
+  }
+
   void solve_here(NetworkSolution& s, const Say& say) {
     const Graph& graph = network_.graph;
     say(fmt::format("  network made in {}: {} vessels, {} junctions", duration(making_),
@@ -76,14 +97,24 @@ class ExplicitTier : public NetworkTier {
     add_weight(network_.graph, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
     for (std::size_t i = 0; i < queried_.size(); ++i) {
-      s.queries.push_back(describe_vessel(network_.graph, flow, queried_[i], mechanics_));
+      s.queries.push_back(describe(flow, queried_[i]));
       s.queries.back().name = c_.network.query[i];
     }
+    if (c_.screening.top > 0) screen(flow, s);
     if (graph.vessels() <= longest_table) fill_table(flow, s);
     show(flow, s);
   }
 
+  hemodynamics::GraphFlow find_injured_flow(NetworkSolution& s) {
+    injured_.emplace(network_.graph, conductances(network_.graph, mechanics_.viscosity, {}),
+                     network_.conditions, c_.aftermath.injuries);
+    coupling::InjuredGraph::Result result = injured_->solve(solver_options(c_));
+    s.leaks = std::move(result.leaks);
+    return std::move(result.flow);
+  }
+
   hemodynamics::GraphFlow find_flow(NetworkSolution& s) {
+    if (!c_.aftermath.injuries.empty()) return find_injured_flow(s);
     const auto flow_of = [&](std::span<const double> haematocrit) {
       return hemodynamics::solve_flow(network_.graph,
                                       conductances(network_.graph, mechanics_.viscosity, haematocrit),
@@ -113,6 +144,34 @@ class ExplicitTier : public NetworkTier {
     s.highest_pressure = high;
   }
 
+  QueriedVessel describe(const hemodynamics::GraphFlow& flow, std::uint32_t v) const {
+    QueriedVessel q = describe_vessel(network_.graph, flow, v, mechanics_);
+    q.name = c_.network.source == "tree" ? network::TreePair::path_of(v) : network_.graph.name_of_vessel(v);
+    return q;
+  }
+
+  void screen(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
+    const Graph& g = network_.graph;
+    const screening::Criterion criterion = criterion_of(c_);
+    const int generations =
+        g.generation.empty() ? 0 : 1 + *std::max_element(g.generation.begin(), g.generation.end());
+    screening::RiskTally tally(generations, static_cast<std::size_t>(c_.screening.top));
+    std::vector<bool> settled(g.vessels());
+    for (const std::uint32_t v : c_.aftermath.settled) settled[v] = true;
+    for (std::size_t v = 0; v < g.vessels(); ++v) {
+      if (settled[v]) continue;
+      const double pressure = 0.5 * (flow.pressure[g.from[v]] + flow.pressure[g.to[v]]);
+      if (std::isnan(pressure)) continue;  // no blood reaches it
+      const network::WallFactors strength{wall_factors(g, v, mechanics_).strength, 1};
+      const double thickness = wall_thickness(g, v, mechanics_) / g.radius[v];
+      tally.add(g.generation.empty() ? -1 : g.generation[v], kind_of(v),
+                {risk(criterion, pressure, thickness, strength), v, 1});
+    }
+    s.screening = tally.result(parallel::Communicator::self());
+    for (const screening::RankedVessel& v : s.screening->top)
+      s.at_risk.push_back(describe(flow, static_cast<std::uint32_t>(v.vessel)));
+  }
+
   void fill_table(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
     const Graph& g = network_.graph;
     for (std::size_t v = 0; v < g.vessels(); ++v) {
@@ -139,6 +198,7 @@ class ExplicitTier : public NetworkTier {
   network::BoundedGraph network_;
   std::vector<double> haematocrit_;  ///< [V], with phase separation
   std::vector<std::uint32_t> queried_;
+  std::optional<coupling::InjuredGraph> injured_;
   double making_ = 0;  ///< s
 };
 

@@ -105,6 +105,7 @@ QueriedVessel describe_vessel(const Graph& g, const hemodynamics::GraphFlow& flo
                   .radius = g.radius[v],
                   .length = g.length[v],
                   .wall_thickness = hemodynamics::wall_thickness(g, v, mechanics),
+                  .strength_factor = hemodynamics::wall_factors(g, v, mechanics).strength,
                   .flow = flow.flow[v],
                   .pressure_from = flow.pressure[g.from[v]],
                   .pressure_to = flow.pressure[g.to[v]],
@@ -150,7 +151,8 @@ hemodynamics::GraphSolverOptions solver_options(const Configuration& c) {
   return options;
 }
 
-std::uint32_t find_vessel(const Configuration& c, const Graph& graph, const std::string& name) {
+std::uint32_t find_vessel(const Configuration& c, const Graph& graph, const std::string& name,
+                          const std::string& key) {
   if (c.network.source == "tree")
     return static_cast<std::uint32_t>(TreePair::id_of(name, c.tree.generations));
   if (!graph.vessel_name.empty()) {
@@ -161,8 +163,7 @@ std::uint32_t find_vessel(const Configuration& c, const Graph& graph, const std:
     const auto number = static_cast<std::size_t>(std::stoul(name));
     if (number < graph.vessels()) return static_cast<std::uint32_t>(number);
   }
-  throw InputError("there is no vessel '" + name + "' in " + c.network.files.back(),
-                   c.is_coupled() && name == c.coupling.vessel ? "coupling.vessel" : "network.query");
+  throw InputError("there is no vessel '" + name + "' in " + c.network.files.back(), key);
 }
 
 std::vector<std::uint32_t> widest_vessels(const Graph& graph, std::size_t count) {

@@ -38,9 +38,10 @@ std::vector<double> conductances(const network::Graph& graph, const hemodynamics
 
 hemodynamics::GraphSolverOptions solver_options(const Configuration& c);
 
-/// The vessel of a name in a file, of an id or path in a tree. Throws InputError (network.query) where there
-/// is none.
-std::uint32_t find_vessel(const Configuration& c, const network::Graph& graph, const std::string& name);
+/// The vessel of a name in a file, of an id or path in a tree. Throws InputError, of `key`, where there is
+/// none.
+std::uint32_t find_vessel(const Configuration& c, const network::Graph& graph, const std::string& name,
+                          const std::string& key);
 
 /// At most `count` vessels, the widest, in ascending order of their numbers.
 std::vector<std::uint32_t> widest_vessels(const network::Graph& graph, std::size_t count);

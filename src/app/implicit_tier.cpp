@@ -52,13 +52,14 @@ class ImplicitTier : public NetworkTier {
     std::optional<TreeFlow>& flow = flow_;
     {
       const Stopwatch watch(spent);
-      flow.emplace(tree_, mechanics_.viscosity, boundary(), comm_);
+      flow.emplace(tree_, mechanics_.viscosity, boundary(), comm_,
+                   c_.screening.top > 0 && mechanics_.variation.varies());
     }
     say(fmt::format("  flow found in {} ({} a vessel)", duration(spent), per_vessel(spent)));
     s.inflow = flow->flow();
     s.highest_pressure = std::max(flow->inlet_pressure(), flow->outlet_pressure());
     s.lowest_pressure = std::min(flow->inlet_pressure(), flow->outlet_pressure());
-    if (c_.network.statistics) sweep(*flow, s, say);
+    sweep(*flow, s, say);
     for (const std::string& name : c_.network.query) s.queries.push_back(query(*flow, name));
     show(*flow, s);
     return s;
@@ -83,13 +84,44 @@ class ImplicitTier : public NetworkTier {
     return b;
   }
 
+  /// Statistics and screening, in one go.
   void sweep(const TreeFlow& flow, NetworkSolution& s, const Say& say) const {
+    if (!c_.network.statistics && c_.screening.top == 0) return;
     double spent = 0;
     {
       const Stopwatch watch(spent);
-      s.statistics = hemodynamics::gather_statistics(flow, mechanics_.viscosity, comm_);
+      std::optional<screening::TreeScreening> screening;
+      std::function<hemodynamics::VesselConsumer&(int)> screen;
+      if (c_.screening.top > 0) {
+        screening.emplace(tree_, mechanics_.variation, criterion_of(c_),
+                          static_cast<std::size_t>(c_.screening.top));
+        screen = [&](int thread) -> hemodynamics::VesselConsumer& { return screening->consumer(thread); };
+      }
+      if (c_.network.statistics) {
+        s.statistics = hemodynamics::gather_statistics(flow, mechanics_.viscosity, comm_, screen);
+      } else {
+        flow.sweep(screen);
+      }
+      if (screening) s.screening = screening->result(comm_);
     }
-    say(fmt::format("  statistics of all vessels in {} ({} a vessel)", duration(spent), per_vessel(spent)));
+    say(fmt::format("  {} of all vessels in {} ({} a vessel)",
+                    !s.screening    ? "statistics"
+                    : !s.statistics ? "screening"
+                                    : "statistics and screening",
+                    duration(spent), per_vessel(spent)));
+    if (s.screening) {
+      for (const screening::RankedVessel& v : s.screening->top)
+        s.at_risk.push_back(query(flow, TreePair::path_of(v.vessel)));
+    }
+    if (mechanics_.hydrostatic.acts()) {
+      s.warnings.push_back(
+          "statistics by generation and screening leave out the weight of blood; stored and queried vessels "
+          "have it");
+    }
+    if (s.statistics) take_statistics(s);
+  }
+
+  void take_statistics(NetworkSolution& s) const {
     s.volume = s.statistics->volume;
     s.surface = s.statistics->surface;
     s.max_imbalance = worst_generation(*s.statistics, s.inflow);
@@ -99,22 +131,20 @@ class ImplicitTier : public NetworkTier {
                       grouped(static_cast<long long>(s.statistics->narrow_vessels)),
                       quantity(mechanics_.viscosity.least_diameter, "m")));
     }
-    if (mechanics_.hydrostatic.acts()) {
-      s.warnings.push_back(
-          "statistics by generation leave out the weight of blood; stored and queried vessels have it");
-    }
   }
 
   QueriedVessel query(const TreeFlow& flow, const std::string& name) const {
     const network::TreeVessel v = tree_.vessel(tree_.id_of(name));
     const hemodynamics::VesselFlow f = flow.query(v.id);
+    const network::WallFactors wall = mechanics_.variation.of(v.kind, TreePair::place_of(v.id));
     return {.name = name,
             .vessel = static_cast<std::int64_t>(v.id),
             .kind = v.kind,
             .generation = v.generation,
             .radius = v.radius,
             .length = v.length,
-            .wall_thickness = v.wall_thickness,
+            .wall_thickness = v.wall_thickness * wall.thickness,
+            .strength_factor = wall.strength,
             .flow = f.flow,
             .pressure_from = f.pressure_from + weight(v.start),
             .pressure_to = f.pressure_to + weight(v.end),
@@ -150,13 +180,25 @@ hemodynamics::VesselMechanics mechanics_of(const Configuration& c) {
   const network::WallParameters& w = c.network.wall;
   hemodynamics::VesselMechanics m{.artery_wall = network::artery_wall(w),
                                   .vein_wall = network::vein_wall(w),
+                                  .variation = network::WallVariation(c.network.weakness),
+                                  .numbered_by_id = c.network.source == "tree",
                                   .young_modulus = w.young_modulus,
                                   .poisson_ratio = w.poisson_ratio,
                                   .viscosity = c.hemodynamics.viscosity,
                                   .hydrostatic = {c.hemodynamics.density, {}}};
   std::copy(c.hemodynamics.acceleration.begin(), c.hemodynamics.acceleration.end(),
             m.hydrostatic.acceleration.begin());
+  if (c.network.source == "tree") m.variation.mark_in_tree(c.network.weakness, c.tree.generations);
   return m;
+}
+
+screening::Criterion criterion_of(const Configuration& c) {
+  screening::Criterion criterion{c.screening.critical_stretch, c.network.wall.young_modulus,
+                                 c.network.wall.poisson_ratio, 0};
+  if (c.is_coupled()) {
+    criterion.outside_pressure = coupling::outside_everywhere(c.coupling);
+  }
+  return criterion;
 }
 
 }  // namespace rhexis::app

@@ -8,11 +8,11 @@
 
 #include "app/network_files.hpp"
 #include "app/stopwatch.hpp"
-#include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "coupling/bleeding.hpp"
 #include "parallel/together.hpp"
+#include "peridynamics/opening.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -33,11 +33,8 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
     solution_ = tier_->solve([&](const std::string& text) { console.line(text); });
   }
   const Stopwatch watch(exchange_s_);
-  parallel::together<InputError>(comm_, [&] {
-    if (solution_.queries.empty()) return;
-    chosen_ = solution_.queries.back();
-    solution_.queries.pop_back();
-  });
+  choose();
+  if (at_rest_) return;
   vessel_ = tier_->vessel(chosen_);
   try {
     parallel::together<InputError>(comm_, [&] {
@@ -62,12 +59,13 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
     throw input::located(error, c_.resolved);
   }
   // What the first rank knows of the vessel, all ranks need.
-  double values[] = {data_.radius,      data_.wall_thickness, data_.length,
-                     load_.pressure[0], load_.pressure[1],    load_.pressure[2]};
+  double values[] = {data_.radius,      data_.wall_thickness, data_.length,           load_.pressure[0],
+                     load_.pressure[1], load_.pressure[2],    chosen_.strength_factor};
   if (!comm_.is_root()) std::fill(std::begin(values), std::end(values), 0.0);
   comm_.all_reduce(values, parallel::Reduce::sum);
   data_ = {values[0], values[1], values[2]};
   load_.pressure = {values[3], values[4], values[5]};
+  c_.vessel.critical_stretch *= values[6];
   least_pressure_ = load_.pressure[1];
   try {
     piece_ = coupling::hand_over(data_, c_.coupling.resolution == "paper", c_.vessel);
@@ -85,6 +83,32 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
   }
   steps_per_window_ = std::max(1L, std::lround(steps));
   c = c_;
+}
+
+/// The vessel whose wall is simulated. A cascade comes to rest when there is none.
+void NetworkCoupling::choose() {
+  parallel::together<InputError>(comm_, [&] {
+    if (!c_.coupling.screens()) {
+      if (solution_.queries.empty()) return;
+      chosen_ = solution_.queries.back();
+      solution_.queries.pop_back();
+    } else if (!solution_.at_risk.empty()) {
+      chosen_ = solution_.at_risk.front();
+    } else if (comm_.is_root() && c_.coupling.events == 0) {
+      throw input::located(InputError("no vessel's wall is under tension", "coupling.vessel"), c_.resolved);
+    }
+    if (chosen_.radius == 0) return;
+    risk_ = screening::risk(criterion_of(c_), std::midpoint(chosen_.pressure_from, chosen_.pressure_to),
+                            chosen_.wall_thickness / chosen_.radius, {chosen_.strength_factor, 1});
+  });
+  // The first rank knows of an explicit network's.
+  risk_ = comm_.all_reduce(comm_.is_root() ? risk_ : 0.0, parallel::Reduce::sum);
+  at_rest_ = c_.coupling.events > 0 && c_.coupling.screens() && !(risk_ > c_.coupling.risk_limit);
+}
+
+coupling::Orifice NetworkCoupling::orifice(double opening) const {
+  return {peridynamics::orifice_flow(c_.vessel.discharge_coefficient, opening, 1.0, c_.vessel.blood_density),
+          middle_outside()};
 }
 
 /// The parts of the net pressure that do not come from the heart.
@@ -129,8 +153,12 @@ std::vector<double> NetworkCoupling::profile(std::int64_t rows, double row_spaci
   return coupling::axial_profile(load_, data_, piece_, rows, row_spacing);
 }
 
-void NetworkCoupling::open(const std::filesystem::path& directory) {
+void NetworkCoupling::write(const std::filesystem::path& directory) {
   write_network(c_, solution_, directory, comm_);
+}
+
+void NetworkCoupling::open(const std::filesystem::path& directory) {
+  write(directory);
   if (!two_way()) return;
   table_path_ = directory / "coupling.csv";
   parallel::on_root<RunError>(comm_, [&] {
@@ -144,16 +172,11 @@ void NetworkCoupling::exchange(const Wall& wall) {
   parallel::on_root<RunError>(comm_, [&] {
     // All pressures of the network rise with the schedule; the network is linear in them, so it is solved at
     // full pressure, with an orifice that lets as much of the flow there out as the real one does now.
-    coupling::Orifice orifice;
-    orifice.outside_pressure = middle_outside();
-    if (wall.schedule > 0) {
-      orifice.strength = peridynamics::orifice_flow(c_.vessel.discharge_coefficient, wall.opening, 1.0,
-                                                    c_.vessel.blood_density) /
-                         std::sqrt(wall.schedule);
-    }
+    coupling::Orifice hole = orifice(wall.opening);
+    hole.strength = wall.schedule > 0 ? hole.strength / std::sqrt(wall.schedule) : 0;
     leaked_ += leak_ * (wall.time_s - last_time_);
     last_time_ = wall.time_s;
-    const coupling::VesselState now = coupling::bleed(*vessel_, wall.resistance_factor, orifice);
+    const coupling::VesselState now = coupling::bleed(*vessel_, wall.resistance_factor, hole);
     leak_ = wall.schedule * now.leak;
     find_load({now.pressure_from, now.pressure_middle, now.pressure_to});
     for (double& p : load_.pressure) p = std::max(p, 0.0);
@@ -178,7 +201,8 @@ LineSource& NetworkCoupling::lines() {
   std::vector<Annotation> notes{{"vessels", "1", static_cast<double>(solution_.vessels)},
                                 {"shown", "1", static_cast<double>(solution_.shown)},
                                 {"inflow", "m3/s", solution_.inflow},
-                                {"leak", "m3/s", leak_}};
+                                {"leak", "m3/s", leak_},
+                                {"event", "1", static_cast<double>(event_)}};
   if (chosen_.start) {
     constexpr const char* names[] = {"chosen_start_x", "chosen_start_y", "chosen_start_z",
                                      "chosen_end_x",   "chosen_end_y",   "chosen_end_z"};
@@ -251,12 +275,6 @@ void NetworkCoupling::say_summary(Console& console) const {
   }
   console.item("network",
                fmt::format("solved in {}; coupling took {} s", duration(network_s_), text(exchange_s_)));
-}
-
-Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm) {
-  Console console(comm.is_root(), options.quiet);
-  NetworkCoupling coupling(configuration, comm, console);
-  return VesselRun(std::move(configuration), options, comm, &coupling).run();
 }
 
 }  // namespace rhexis::app

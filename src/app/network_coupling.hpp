@@ -23,8 +23,19 @@ class NetworkCoupling {
   /// Collective. Throws InputError and RunError.
   NetworkCoupling(Configuration& c, parallel::Communicator comm, Console& console);
 
+  /// The network has been solved, but no vessel's risk is above the cascade's limit: nothing to simulate.
+  bool at_rest() const { return at_rest_; }
+  const QueriedVessel& vessel() const { return chosen_; }
+  double risk() const { return risk_; }      ///< of that vessel (screening/screening.hpp)
+  double inflow() const { return solution_.inflow; }  ///< m3/s, of the network before the vessel ruptures
+  const std::vector<double>& leaks() const { return solution_.leaks; }
+  /// The vessel's opening as seen from the network, area in m2.
+  coupling::Orifice orifice(double opening) const;
+
   bool two_way() const { return c_.coupling.mode == "two_way"; }
-  /// Writes the network's files, and begins coupling.csv where coupling is two-way.
+  /// Writes the network's files.
+  void write(const std::filesystem::path& directory);
+  /// The same, and begins coupling.csv where coupling is two-way.
   void open(const std::filesystem::path& directory);
 
   /// Largest net pressure in the vessel by the last exchange, Pa; `profile` is relative to it.
@@ -44,6 +55,8 @@ class NetworkCoupling {
   void exchange(const Wall& wall);
   double leak() const { return leak_; }  ///< m3/s, by the last exchange
 
+  /// Of a cascade, for the pictures.
+  void set_event(std::size_t number) { event_ = number; }
   /// The network as it is shown: with the vessel's place, pressure and leak.
   LineSource& lines();
   output::NetworkResults network_results() const;
@@ -52,6 +65,7 @@ class NetworkCoupling {
   void say_summary(Console& console) const;
 
  private:
+  void choose();
   void find_load(const std::array<double, 3>& heart);
   void choose_places();
   double middle_outside() const { return parts_[1].outside(); }
@@ -61,12 +75,15 @@ class NetworkCoupling {
   std::unique_ptr<NetworkTier> tier_;
   NetworkSolution solution_;
   QueriedVessel chosen_;
+  bool at_rest_ = false;
+  double risk_ = 0;
   std::unique_ptr<coupling::VesselInNetwork> vessel_;
   coupling::VesselData data_;
   coupling::Piece piece_;
   /// At the vessel's beginning, middle and end; the heart's by the last exchange.
   std::array<coupling::PressureParts, 3> parts_{};
   coupling::AxialLoad load_, first_load_;
+  std::size_t event_ = 0;
   long steps_per_window_ = 1, windows_ = 0;
   double leak_ = 0, leaked_ = 0, last_time_ = 0;  ///< m3/s, m3, s
   double worst_imbalance_ = 0, least_pressure_ = 0;
@@ -74,8 +91,5 @@ class NetworkCoupling {
   std::filesystem::path table_path_;
   std::ofstream table_;
 };
-
-/// The coupled run, from its configuration to its results.
-Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm);
 
 }  // namespace rhexis::app

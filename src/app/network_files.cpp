@@ -17,6 +17,10 @@ void write_tables(const NetworkSolution& solution, const std::filesystem::path& 
       output::write_atomically(directory / "generations.csv", generation_table(*solution.statistics));
       output::write_atomically(directory / "histograms.csv", histogram_table(*solution.statistics));
     }
+    if (solution.screening) {
+      output::write_atomically(directory / "screening.csv", screening_table(solution));
+      output::write_atomically(directory / "risk_histograms.csv", risk_table(*solution.screening));
+    }
     if (!solution.table.empty()) {
       output::write_atomically(directory / "vessels.csv", vessel_table(solution.table));
     }
@@ -91,6 +95,7 @@ nlohmann::ordered_json to_json(const QueriedVessel& q) {
                               {"radius_m", q.radius},
                               {"length_m", q.length},
                               {"wall_thickness_m", q.wall_thickness},
+                              {"strength_factor", q.strength_factor},
                               {"flow_m3_s", q.flow},
                               {"pressure_from_Pa", q.pressure_from},
                               {"pressure_to_Pa", q.pressure_to}};
@@ -115,6 +120,17 @@ output::NetworkResults network_results(const NetworkSolution& solution) {
   n.iterations = solution.iterations;
   n.queries = nlohmann::ordered_json::array();
   for (const QueriedVessel& q : solution.queries) n.queries.push_back(to_json(q));
+  if (solution.screening) {
+    auto list = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < solution.at_risk.size(); ++i) {
+      const screening::RankedVessel& ranked = solution.screening->top[i];
+      list.push_back({{"risk", ranked.risk}, {"alike", ranked.alike}});
+      list.back().update(to_json(solution.at_risk[i]));
+    }
+    n.screening = {{"vessels", solution.screening->vessels},
+                   {"above_limit", solution.screening->above},
+                   {"top", std::move(list)}};
+  }
   return n;
 }
 

@@ -8,7 +8,7 @@
 
 namespace rhexis::app {
 
-/// generations.csv, histograms.csv, vessels.csv (what there is of them), network.xdmf and .h5, network.vtp.
+/// generations.csv, histograms.csv, screening.csv, risk_histograms.csv, vessels.csv (what there is of them), network.xdmf and .h5, network.vtp.
 /// Collective. Throws RunError.
 void write_network(const Configuration& c, NetworkSolution& solution, const std::filesystem::path& directory,
                    parallel::Communicator comm);

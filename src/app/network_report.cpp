@@ -1,6 +1,7 @@
 // What a network's run says of itself: at its start, at its end, and in run.json.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/network_run.hpp"
@@ -73,8 +74,28 @@ void NetworkRun::say_summary() {
                               quantity(q.radius, "m"), quantity(q.length, "m"), flow_text(q.flow),
                               mmhg(q.pressure_from), mmhg(q.pressure_to)));
   }
+  say_screening();
   console_.item("shown", fmt::format("{} of {} vessels", grouped(s.shown), grouped(s.vessels)));
   say_cost(performance());
+}
+
+void NetworkRun::say_screening() {
+  if (!solution_.screening) return;
+  const screening::Screening& s = *solution_.screening;
+  console_.item("at risk", fmt::format("{} vessels are strained beyond their critical stretch{}",
+                                       grouped(static_cast<long long>(s.above)),
+                                       s.top.empty() ? "" : "; highest risk (strain over critical stretch):"));
+  constexpr std::size_t most_said = 5;
+  for (std::size_t i = 0; i < std::min(s.top.size(), most_said); ++i) {
+    const QueriedVessel& q = solution_.at_risk[i];
+    console_.line(fmt::format(
+        "  {:>10.3f}  {}{}, radius {}, wall {}, {} to {}{}", s.top[i].risk, q.name,
+        q.generation < 0 ? "" : fmt::format(" (generation {})", q.generation), quantity(q.radius, "m", 3),
+        quantity(q.wall_thickness, "m", 3), mmhg(q.pressure_from), mmhg(q.pressure_to),
+        s.top[i].alike > 1 ? fmt::format(", one of {} alike", grouped(static_cast<long long>(s.top[i].alike)))
+                           : ""));
+  }
+  if (s.top.size() > most_said) console_.line(fmt::format("  {:>10}  in screening.csv", "more"));
 }
 
 }  // namespace rhexis::app

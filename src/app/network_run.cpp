@@ -43,10 +43,11 @@ void NetworkRun::solve() {
 }
 
 void NetworkRun::draw() {
-  if (!pipeline_) return;
-  const Stopwatch watch(spent_.insitu);
-  pipeline_->process({.particles = nullptr, .network = &solution_.lines});
-  pipeline_->finish();
+  if (pictures_->pipeline) {
+    const Stopwatch watch(spent_.insitu);
+    pictures_->pipeline->process({.particles = nullptr, .network = &solution_.lines});
+  }
+  finish_insitu();
 }
 
 }  // namespace rhexis::app

@@ -20,6 +20,7 @@ class NetworkRun : private RunBase {
   void solve();
   void draw();
   void say_summary();
+  void say_screening();
 
   std::unique_ptr<NetworkTier> tier_;
   NetworkSolution solution_;

@@ -9,14 +9,14 @@ namespace {
 
 constexpr const char* kinds[2] = {"artery", "vein"};
 
+}  // namespace
+
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + '"';
 }
-
-}  // namespace
 
 std::string generation_table(const hemodynamics::TreeStatistics& s) {
   std::string table = "generation,kind,vessels,mean_length_m,volume_m3,surface_m2";
@@ -52,6 +52,38 @@ std::string histogram_table(const hemodynamics::TreeStatistics& s) {
     for (std::size_t kind = 0; kind < 2; ++kind) {
       add(g, kinds[kind], "pressure_Pa", s.pressure_bins, g.pressure_counts[kind]);
       add(g, kinds[kind], "hoop_stress_Pa", s.stress_bins, g.stress_counts[kind]);
+    }
+  }
+  return table;
+}
+
+std::string screening_table(const NetworkSolution& s) {
+  std::string table =
+      "rank,vessel,id,kind,generation,alike,risk,radius_m,wall_thickness_m,strength_factor,pressure_from_Pa,"
+      "pressure_to_Pa\n";
+  for (std::size_t i = 0; i < s.at_risk.size(); ++i) {
+    const screening::RankedVessel& ranked = s.screening->top[i];
+    const QueriedVessel& q = s.at_risk[i];
+    fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{:.0f},{},{},{},{},{},{}\n", i + 1,
+                   quoted(q.name), q.vessel, kind_text(q.kind), q.generation, ranked.alike, ranked.risk,
+                   q.radius, q.wall_thickness, q.strength_factor, q.pressure_from, q.pressure_to);
+  }
+  return table;
+}
+
+std::string risk_table(const screening::Screening& s) {
+  std::string table = "generation,kind,from,to,vessels\n";
+  for (std::size_t g = 0; g < s.generations.size(); ++g) {
+    for (std::size_t kind = 0; kind < 2; ++kind) {
+      const auto& counts = s.generations[g].counts[kind];
+      for (std::size_t b = counts.size(); b-- > 0;) {
+        if (counts[b] == 0) continue;
+        // The outermost bins hold all beyond.
+        const double from = b + 1 == counts.size() ? 0 : s.bins.lower_edge(b);
+        const std::string to = b == 0 ? "inf" : fmt::format("{}", s.bins.upper_edge(b));
+        fmt::format_to(std::back_inserter(table), "{},{},{},{},{}\n", static_cast<long>(g) - 1,
+                       g == 0 ? "vessel" : kinds[kind], from, to, counts[b]);
+      }
     }
   }
   return table;

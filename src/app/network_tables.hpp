@@ -8,12 +8,20 @@
 
 namespace rhexis::app {
 
+/// A name as a CSV field.
+std::string quoted(const std::string& text);
+
 /// A row for each generation and kind: count, radius, length, volume, surface; mean, least and most of
 /// pressure, flow and hoop stress. SI units, named in the header.
 std::string generation_table(const hemodynamics::TreeStatistics& s);
 
 /// A row for each bin that is not empty: generation, kind, quantity, edges, vessels.
 std::string histogram_table(const hemodynamics::TreeStatistics& s);
+
+/// Of the vessels at highest risk; the solution has been screened.
+std::string screening_table(const NetworkSolution& solution);
+/// How many vessels of every generation have what risk.
+std::string risk_table(const screening::Screening& screening);
 
 /// A row for each vessel of an explicit network.
 std::string vessel_table(const std::vector<VesselRow>& rows);

@@ -16,6 +16,7 @@
 #include "hemodynamics/vessel_lines.hpp"
 #include "network/graph.hpp"
 #include "parallel/communicator.hpp"
+#include "screening/screening.hpp"
 
 namespace rhexis::app {
 
@@ -26,6 +27,7 @@ struct QueriedVessel {
   network::VesselKind kind = network::VesselKind::unknown;
   int generation = -1;
   double radius = 0, length = 0, wall_thickness = 0;  ///< m
+  double strength_factor = 1;                         ///< on the critical stretch of its wall
   double flow = 0;                                    ///< m3/s
   double pressure_from = 0, pressure_to = 0;          ///< Pa
   std::optional<std::array<double, 3>> start, end;    ///< m
@@ -47,6 +49,9 @@ struct NetworkSolution {
   std::optional<std::int64_t> iterations, haematocrit_iterations;
   std::optional<hemodynamics::TreeStatistics> statistics;
   std::vector<QueriedVessel> queries;
+  std::optional<screening::Screening> screening;
+  std::vector<QueriedVessel> at_risk;  ///< [screening->top]
+  std::vector<double> leaks;           ///< m3/s, of the injuries that earlier events left
   std::vector<VesselRow> table;
   hemodynamics::VesselLines lines;  ///< to store and draw: this rank's
   std::int64_t shown = 0;           ///< of all ranks
@@ -80,6 +85,8 @@ std::unique_ptr<NetworkTier> make_distributed_tier(const Configuration& c, paral
 /// By network.tier.
 std::unique_ptr<NetworkTier> make_tier(const Configuration& c, parallel::Communicator comm);
 
+/// Walls of a tree are marked; of a file, the reader does that.
 hemodynamics::VesselMechanics mechanics_of(const Configuration& c);
+screening::Criterion criterion_of(const Configuration& c);
 
 }  // namespace rhexis::app

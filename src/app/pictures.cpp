@@ -14,15 +14,15 @@ insitu::Renderer renderer(const std::string& name) {
 
 Pictures start_pictures(const insitu::Parameters& parameters, const std::filesystem::path& results,
                         parallel::Communicator comm) {
-  if (!parameters.enabled) return {nullptr, "off (insitu.enabled = false)"};
-  if (parameters.scripts.empty()) return {nullptr, "off (no insitu.scripts)"};
+  if (!parameters.enabled) return {.pipeline = nullptr, .description = "off (insitu.enabled = false)"};
+  if (parameters.scripts.empty()) return {.pipeline = nullptr, .description = "off (no insitu.scripts)"};
   try {
     auto pipeline = insitu::load_pipeline(
         {parameters.scripts, (results / "images").string(), renderer(parameters.renderer)}, comm);
     std::string description = pipeline->description();
-    return {std::move(pipeline), std::move(description)};
+    return {.pipeline = std::move(pipeline), .description = std::move(description)};
   } catch (const insitu::NotAvailable& reason) {
-    return {nullptr, std::string("off: ") + reason.what()};
+    return {.pipeline = nullptr, .description = std::string("off: ") + reason.what()};
   }
 }
 

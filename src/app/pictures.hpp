@@ -14,10 +14,30 @@ namespace rhexis::app {
 struct Pictures {
   std::unique_ptr<insitu::Pipeline> pipeline;  ///< null: no pictures
   std::string description;                     ///< who draws, or why nobody does
+  /// Where several runs share them, one after the other: steps and seconds of those before.
+  long steps_before = 0;
+  double seconds_before = 0;
 };
 
 /// Collective. Throws RunError for a bad script.
 Pictures start_pictures(const insitu::Parameters& parameters, const std::filesystem::path& results,
                         parallel::Communicator comm);
+
+/// A run's particles with the steps and seconds of the runs before.
+class LaterSource : public PointSource {
+ public:
+  LaterSource(PointSource& source, const Pictures& pictures) : source_(source), pictures_(pictures) {}
+  long step() const override { return source_.step() + pictures_.steps_before; }
+  double time_s() const override { return source_.time_s() + pictures_.seconds_before; }
+  const PointLayout& layout() const override { return source_.layout(); }
+  std::span<const FieldInfo> fields() const override { return source_.fields(); }
+  FieldView positions() override { return source_.positions(); }
+  FieldView field(std::string_view name) override { return source_.field(name); }
+  std::vector<Annotation> annotations() const override { return source_.annotations(); }
+
+ private:
+  PointSource& source_;
+  const Pictures& pictures_;
+};
 
 }  // namespace rhexis::app

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/pictures.hpp"
+#include "app/movie.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -37,9 +37,26 @@ void RunBase::note_failure(const std::string& reason) {
 
 void RunBase::start_insitu() {
   const Stopwatch watch(spent_.insitu);
-  Pictures pictures = start_pictures(c_.insitu, options_.directory, comm_);
-  pipeline_ = std::move(pictures.pipeline);
-  renderer_ = std::move(pictures.description);
+  pictures_ = options_.pictures;
+  if (!pictures_)
+    pictures_ = std::make_shared<Pictures>(start_pictures(c_.insitu, options_.directory, comm_));
+}
+
+void RunBase::finish_insitu() {
+  if (!pictures_->pipeline || options_.pictures) return;
+  const Stopwatch watch(spent_.insitu);
+  pictures_->pipeline->finish();
+}
+
+void RunBase::make_movie() {
+  if (!pictures_->pipeline || options_.pictures || !c_.output.movie) return;
+  const Stopwatch watch(spent_.insitu);
+  std::string problem;
+  if (comm_.is_root()) {
+    problem = app::make_movie(options_.directory / "images", options_.directory / "movie.mp4",
+                              c_.output.frames_per_second);
+  }
+  if (!problem.empty()) console_.warning("no movie: " + problem);
 }
 
 output::Performance RunBase::performance() const {
@@ -70,7 +87,7 @@ void RunBase::say_input() {
 void RunBase::say_surroundings() {
   console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
                                         parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
-  if (!renderer_.empty()) console_.item("pictures", renderer_);
+  if (pictures_) console_.item("pictures", pictures_->description);
   console_.item("results", options_.directory.string());
 }
 

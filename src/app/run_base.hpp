@@ -8,8 +8,8 @@
 
 #include "app/configuration.hpp"
 #include "app/console.hpp"
+#include "app/pictures.hpp"
 #include "app/run_options.hpp"
-#include "insitu/pipeline.hpp"
 #include "output/directory.hpp"
 #include "output/run_record.hpp"
 #include "parallel/communicator.hpp"
@@ -20,6 +20,11 @@ class RunBase {
  protected:
   struct Spent {
     double solve = 0, output = 0, insitu = 0;  ///< s
+    void add(const Spent& other) {
+      solve += other.solve;
+      output += other.output;
+      insitu += other.insitu;
+    }
   };
 
   RunBase(Configuration configuration, RunOptions options, parallel::Communicator comm);
@@ -32,6 +37,9 @@ class RunBase {
   void note_failure(const std::string& reason);
   /// Starts ParaView, or settles why there will be no pictures. Collective. Throws RunError for a bad script.
   void start_insitu();
+  /// Ends ParaView, unless other runs still need it.
+  void finish_insitu();
+  void make_movie();
   /// Collective.
   output::Performance performance() const;
   /// Directed bond evaluations so far, on this rank; none where no wall is simulated.
@@ -51,10 +59,9 @@ class RunBase {
   std::optional<output::RunRecord> record_;
   output::Results results_;
   Spent spent_;
-  std::unique_ptr<insitu::Pipeline> pipeline_;  ///< null: no pictures
+  std::shared_ptr<Pictures> pictures_;
 
  private:
-  std::string renderer_;  ///< who draws, or why nobody does
   double started_;        ///< s, of the clock
 };
 

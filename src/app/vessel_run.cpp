@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "app/interrupt.hpp"
-#include "app/movie.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -49,7 +48,8 @@ Ending VesselRun::run() {
     start_insitu();
     say_header();
     time_loop();
-    finish_pictures();
+    finish_insitu();
+    make_movie();
   } catch (const RunError& error) {
     note_failure(error.what());
     throw;
@@ -116,11 +116,12 @@ void VesselRun::open_results() {
 }
 
 bool VesselRun::pictures_due(long step, bool output_due) {
-  if (!pipeline_) return false;
+  if (!pictures_->pipeline) return false;
   const bool due =
       c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : output_due;
   // Scripts are asked last: the answer may need all ranks.
-  return due && pipeline_->wants(step, time_at(step));
+  return due && pictures_->pipeline->wants(step + pictures_->steps_before,
+                                           time_at(step) + pictures_->seconds_before);
 }
 
 void VesselRun::observe(long step, bool with_output, bool with_pictures) {
@@ -158,8 +159,9 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   }
   if (with_pictures) {
     const Stopwatch watch(spent_.insitu);
-    pipeline_->process(
-        {.particles = source_.get(), .network = coupling_ != nullptr ? &coupling_->lines() : nullptr});
+    LaterSource particles(*source_, *pictures_);
+    pictures_->pipeline->process(
+        {.particles = &particles, .network = coupling_ != nullptr ? &coupling_->lines() : nullptr});
   }
 }
 
@@ -249,19 +251,6 @@ void VesselRun::time_loop() {
     interrupted_ = (flags & Flag::interrupted) != 0;
     vent_now_ = vent_next_;
   }
-}
-
-void VesselRun::finish_pictures() {
-  if (!pipeline_) return;
-  const Stopwatch watch(spent_.insitu);
-  pipeline_->finish();
-  if (!c_.output.movie) return;
-  std::string problem;
-  if (comm_.is_root()) {
-    problem = make_movie(options_.directory / "images", options_.directory / "movie.mp4",
-                         c_.output.frames_per_second);
-  }
-  if (!problem.empty()) console_.warning("no movie: " + problem);
 }
 
 }  // namespace rhexis::app

@@ -25,6 +25,9 @@ class VesselRun : private RunBase {
   /// InputError (nothing written).
   Ending run();
 
+  const output::Results& results() const { return results_; }
+  const Spent& spent() const { return spent_; }
+
  private:
   std::string unstable_message(long step, const std::string& sign) const;
   void build();
@@ -39,7 +42,6 @@ class VesselRun : private RunBase {
   void take_load();
   void write_checkpoint(long step);
   void read_checkpoint();
-  void finish_pictures();
   void say_summary();
   std::optional<std::int64_t> bond_evaluations() const override { return body_->bond_evaluations(); }
   double pressure_at(long step) const;

@@ -8,8 +8,8 @@ ParameterList declare(Parameters& p) {
        &p.vessel,
        "",
        {},
-       "The vessel whose wall is simulated: its path in a tree (\"artery.0110\"), its id, or its name in a "
-       "file.",
+       "The vessel whose wall is simulated: its path in a tree (\"artery.0110\"), its id, its name in a "
+       "file, or \"screening\": the one at highest risk.",
        "Sec. 3.3"},
       {"coupling.mode",
        &p.mode,
@@ -34,6 +34,25 @@ ParameterList declare(Parameters& p) {
        "Sec. 3.3",
        {},
        {"auto", "paper"}},
+
+      {"cascade.events", &p.events, "1", "0",
+       "After a vessel has ruptured the flow is found again, and the vessel that is now at highest risk is "
+       "simulated "
+       "next: this many at most; 0: only coupling.vessel. Needs an explicit network.",
+       "", Range::between(0, 1000)},
+      {"cascade.outcome",
+       &p.outcome,
+       "",
+       "\"bleeding\"",
+       "What a ruptured vessel does from then on: it bleeds through the opening that it had at the end, or it "
+       "is "
+       "occluded (a clot, a clamp, a spasm) and the others carry its flow.",
+       "",
+       {},
+       {"bleeding", "occlusion"}},
+      {"cascade.risk_limit", &p.risk_limit, "1", "1",
+       "The cascade ends when no vessel's risk (strain over critical stretch) is above this.", "",
+       Range::positive()},
 
       {"body.tissue_tension", &p.tension, "Pa", "\"0 Pa\"", "Pressure of the tissue around the vessel, P_t.",
        "Eq. (7)", Range::any()},
@@ -65,6 +84,14 @@ Compression compression(const Parameters& p) {
   c.from = p.compression_from.value_or(c.from);
   c.to = p.compression_to.value_or(c.to);
   return c;
+}
+
+double outside_everywhere(const Parameters& p) {
+  PressureParts parts;
+  parts.tension = p.tension;
+  parts.atmosphere = p.atmosphere;
+  if (!p.compression_from && !p.compression_to) parts.compression = p.compression;
+  return parts.outside();
 }
 
 }  // namespace rhexis::coupling

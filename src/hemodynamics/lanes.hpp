@@ -50,6 +50,32 @@ HWY_INLINE FourWords philox(Word counter, network::Stream stream, std::uint64_t 
   return {{c0, c1, c2, c3}};
 }
 
+/// out[i] of every i in [0, count) from the random word of number `first + i`: by `in_lanes` of a vector of
+/// words, by `scalar` where there are few. `count`: a power of two that divides `first`; `out` aligned for
+/// vectors. Four words of 8 counters serve 32 numbers.
+template <class InLanes, class Scalar>
+void draw_each(std::uint64_t seed, network::Stream stream, std::uint64_t first, std::size_t count,
+               double* out, const InLanes& in_lanes, const Scalar& scalar) {
+  const Reals d;
+  const Words w;
+  if (count < width) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = scalar(network::draw(seed, stream, first + i));
+    return;
+  }
+  const std::size_t block = count < 32 ? count : 32;
+  for (std::size_t i = 0; i < count; i += block) {
+    for (std::size_t s = 0; s < (block < 32 ? block : 8); s += width) {
+      const Word counter = hn::Iota(w, network::counter_of(first + i + s));
+      const FourWords words = philox(counter, stream, seed);
+      if (block < 32) {
+        hn::Store(in_lanes(words.word[network::word_of(first + i + s)]), d, out + i + s);
+        continue;
+      }
+      for (std::size_t k = 0; k < 4; ++k) hn::Store(in_lanes(words.word[k]), d, out + i + 8 * k + s);
+    }
+  }
+}
+
 /// network::even_share of the word in each lane.
 HWY_INLINE Real even_share(Word bits) {
   // (bits & 0x7fffffff) as a double without a conversion: it is put into the mantissa of 2^52.

@@ -41,34 +41,11 @@ Subtree::Subtree(const TreeLaw& law, int depth, bool open) : law_(law), depth_(d
   for (std::size_t i = 0; i < arrays; ++i) *array[i] = memory_.get() + i * stride;
 }
 
-/// A number for every place of generation l, from its random word: four words of 8 counters serve 32 places.
+/// A number for every place of generation l, from its random word.
 template <class InLanes, class Scalar>
 void Subtree::draw_level(network::Stream stream, int l, double* out, const InLanes& in_lanes,
                          const Scalar& scalar) const {
-  const Reals d;
-  const Words w;
-  const std::size_t first = first_of(l);
-  const std::uint64_t number = place_ << l;
-  if (first < width) {
-    for (std::size_t i = 0; i < first; ++i)
-      out[first + i] = scalar(network::draw(law_.seed, stream, number + i));
-    return;
-  }
-  if (first < 32) {
-    for (std::size_t i = 0; i < first; i += width) {
-      const Word counter = hn::Iota(w, network::counter_of(number + i));
-      const lanes::FourWords words = lanes::philox(counter, stream, law_.seed);
-      hn::Store(in_lanes(words.word[network::word_of(number + i)]), d, out + first + i);
-    }
-    return;
-  }
-  for (std::size_t i = 0; i < first; i += 32) {
-    for (std::size_t s = 0; s < 8; s += width) {
-      const Word counter = hn::Iota(w, network::counter_of(number + i) + s);
-      const lanes::FourWords words = lanes::philox(counter, stream, law_.seed);
-      for (std::size_t k = 0; k < 4; ++k) hn::Store(in_lanes(words.word[k]), d, out + first + i + 8 * k + s);
-    }
-  }
+  lanes::draw_each(law_.seed, stream, place_ << l, first_of(l), out + first_of(l), in_lanes, scalar);
 }
 
 /// Capacities of the daughters of generation l.

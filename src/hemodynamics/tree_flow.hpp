@@ -55,9 +55,10 @@ class VesselConsumer {
 class TreeFlow {
  public:
   /// Finds the resistance of the whole: the way up, over all vessels. Collective. Throws InputError for a
-  /// boundary that does not determine the flow.
+  /// boundary that does not determine the flow. `one_by_one`: every vessel streams by, also where one could
+  /// stand for its generation, because consumers tell them apart.
   TreeFlow(const network::TreePair& tree, const Viscosity& viscosity, const TreeBoundary& boundary,
-           parallel::Communicator comm);
+           parallel::Communicator comm, bool one_by_one = false);
 
   double resistance() const { return resistance_; }  ///< Pa s/m3, of the whole
   double flow() const { return root_.flow; }         ///< m3/s

@@ -19,44 +19,11 @@ using lanes::Real;
 using lanes::Reals;
 using lanes::width;
 using parallel::ExactSum;
-using Integers = hn::RebindToSigned<Reals>;
+using Integers = BinFinder::Integers;
 
-constexpr int geometric_shift = 50;  ///< leaves two bits of the mantissa: four bins to an octave
 /// Of every counter, taken by turns, so that equal bins do not wait for each other.
 constexpr int copies_shift = 1;
 constexpr std::size_t copies = std::size_t{1} << copies_shift;
-
-std::uint64_t quarter_octave(double value) {
-  return std::bit_cast<std::uint64_t>(value) >> geometric_shift;
-}
-double quarter_edge(std::uint64_t quarter) {
-  return std::bit_cast<double>(quarter << geometric_shift);
-}
-
-/// The bin of each value.
-class BinFinder {
- public:
-  explicit BinFinder(const Bins& bins)
-      : geometric_(bins.geometric),
-        last_(static_cast<std::int64_t>(bins.count) - 1),
-        top_(static_cast<std::int64_t>(quarter_octave(bins.high))),
-        low_(bins.low),
-        per_bin_(static_cast<double>(bins.count) / (bins.high - bins.low)) {}
-
-  HWY_INLINE hn::VFromD<Integers> operator()(Real v) const {
-    const Reals d;
-    const Integers di;
-    const auto bin = geometric_
-                         ? hn::Sub(hn::Set(di, top_), hn::ShiftRight<geometric_shift>(hn::BitCast(di, v)))
-                         : hn::ConvertTo(di, hn::Mul(hn::Sub(v, hn::Set(d, low_)), hn::Set(d, per_bin_)));
-    return hn::Min(hn::Max(bin, hn::Zero(di)), hn::Set(di, last_));
-  }
-
- private:
-  bool geometric_;
-  std::int64_t last_, top_;
-  double low_, per_bin_;
-};
 
 /// Sum, least and most of one quantity in one generation.
 struct Tally {
@@ -178,8 +145,9 @@ struct GenerationGatherer {
 
 class Gatherer : public VesselConsumer {
  public:
-  Gatherer(const Context& context, int generations)
+  Gatherer(const Context& context, int generations, VesselConsumer* also)
       : c_(context),
+        also_(also),
         find_flow_(context.flow_bins),
         find_pressure_(context.pressure_bins),
         find_stress_(context.stress_bins) {
@@ -187,6 +155,7 @@ class Gatherer : public VesselConsumer {
   }
 
   void consume(const VesselBlock& b) override {
+    if (also_ != nullptr) also_->consume(b);
     if (b.count >= width) {
       gather(b);
       return;
@@ -265,6 +234,7 @@ class Gatherer : public VesselConsumer {
   }
 
   const Context& c_;
+  VesselConsumer* also_;
   BinFinder find_flow_, find_pressure_, find_stress_;
   std::vector<GenerationGatherer> generations_;
 };
@@ -313,23 +283,14 @@ std::vector<std::uint64_t> of_all(std::vector<std::uint64_t> counts, parallel::C
 
 }  // namespace
 
-double Bins::lower_edge(std::size_t bin) const {
-  if (geometric) return quarter_edge(quarter_octave(high) - bin);
-  return low + (high - low) * static_cast<double>(bin) / static_cast<double>(count);
-}
-
-double Bins::upper_edge(std::size_t bin) const {
-  if (geometric) return quarter_edge(quarter_octave(high) - bin + 1);
-  return lower_edge(bin + 1);
-}
-
 TreeStatistics gather_statistics(const TreeFlow& flow, const Viscosity& viscosity,
-                                 parallel::Communicator comm) {
+                                 parallel::Communicator comm,
+                                 const std::function<VesselConsumer&(int thread)>& also) {
   const int k = flow.tree().generations();
   const Context context = make_context(flow, viscosity);
   std::vector<std::unique_ptr<Gatherer>> gatherers;
   for (int t = 0; t < parallel::thread_count(); ++t)
-    gatherers.push_back(std::make_unique<Gatherer>(context, k));
+    gatherers.push_back(std::make_unique<Gatherer>(context, k, also ? &also(t) : nullptr));
   flow.sweep([&](int thread) -> VesselConsumer& { return *gatherers[static_cast<std::size_t>(thread)]; });
 
   TreeStatistics s;

@@ -10,23 +10,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "hemodynamics/bins.hpp"
 #include "hemodynamics/tree_flow.hpp"
 
 namespace rhexis::hemodynamics {
 
 struct Spread {
   double mean = 0, least = 0, most = 0;
-};
-
-/// Bins of a histogram. Linear: even between `low` and `high`. Geometric: four to an octave downwards from
-/// `high`'s octave (edges at 1, 1.25, 1.5, 1.75 times a power of two). What lies outside counts into the
-/// outermost bins.
-struct Bins {
-  bool geometric = false;
-  std::size_t count = 0;
-  double low = 0, high = 0;
-  double lower_edge(std::size_t bin) const;
-  double upper_edge(std::size_t bin) const;
 };
 
 /// Of one generation; index 0 for arteries, 1 for veins.
@@ -48,8 +38,9 @@ struct TreeStatistics {
   double narrow_vessels = 0;       ///< below the viscosity law's least diameter
 };
 
-/// One sweep over all vessels. Collective.
+/// One sweep over all vessels, which other consumers may ride along. Collective.
 TreeStatistics gather_statistics(const TreeFlow& flow, const Viscosity& viscosity,
-                                 parallel::Communicator comm);
+                                 parallel::Communicator comm,
+                                 const std::function<VesselConsumer&(int thread)>& also = {});
 
 }  // namespace rhexis::hemodynamics

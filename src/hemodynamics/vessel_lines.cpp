@@ -37,10 +37,20 @@ const network::Wall& wall_of(const VesselMechanics& mechanics, VesselKind kind) 
 
 }  // namespace
 
-double wall_thickness(const network::Graph& graph, std::size_t vessel, const VesselMechanics& mechanics) {
-  if (!graph.wall_thickness.empty() && graph.wall_thickness[vessel] > 0) return graph.wall_thickness[vessel];
+network::WallFactors wall_factors(const network::Graph& graph, std::size_t vessel,
+                                  const VesselMechanics& mechanics) {
   const VesselKind kind = graph.kind.empty() ? VesselKind::unknown : graph.kind[vessel];
-  return graph.radius[vessel] * wall_of(mechanics, kind).relative_thickness(graph.radius[vessel]);
+  return mechanics.variation.of(kind,
+                                mechanics.numbered_by_id ? network::TreePair::place_of(vessel) : vessel);
+}
+
+double wall_thickness(const network::Graph& graph, std::size_t vessel, const VesselMechanics& mechanics) {
+  const double factor = wall_factors(graph, vessel, mechanics).thickness;
+  if (!graph.wall_thickness.empty() && graph.wall_thickness[vessel] > 0)
+    return factor * graph.wall_thickness[vessel];
+  const VesselKind kind = graph.kind.empty() ? VesselKind::unknown : graph.kind[vessel];
+  const double radius = graph.radius[vessel];
+  return factor * radius * wall_of(mechanics, kind).relative_thickness(radius);
 }
 
 std::int64_t VesselLines::add_point(const network::Point& position, double pressure) {
@@ -105,7 +115,8 @@ VesselLines VesselLines::of_tree(const TreeFlow& flow, std::span<const network::
                     .flow = f.flow,
                     .radius = r,
                     .length = length,
-                    .wall_thickness = r * wall_of(mechanics, kind).relative_thickness(r),
+                    .wall_thickness = r * wall_of(mechanics, kind).relative_thickness(r) *
+                                      mechanics.variation.of(kind, place).thickness,
                     .generation = static_cast<double>(generation),
                     .haematocrit = mechanics.viscosity.haematocrit,
                     .number = static_cast<double>(TreePair::id_of(place, kind)),

@@ -20,13 +20,15 @@
 #include "hemodynamics/viscosity.hpp"
 #include "network/graph.hpp"
 #include "network/tree_selection.hpp"
-#include "network/wall.hpp"
+#include "network/wall_variation.hpp"
 
 namespace rhexis::hemodynamics {
 
 /// What turns pressures and radii into strain and shear.
 struct VesselMechanics {
   network::Wall artery_wall, vein_wall;
+  network::WallVariation variation;
+  bool numbered_by_id = false;  ///< a graph's vessels have the ids of a tree
   double young_modulus = 1, poisson_ratio = 0.25;
   Viscosity viscosity;
   Hydrostatic hydrostatic;
@@ -73,7 +75,11 @@ class VesselLines : public LineSource {
   std::vector<Annotation> annotations_;
 };
 
-/// Wall thickness of a vessel (m): its own where the graph has it, else by the rule for its kind.
+/// How a vessel's wall differs from its rule.
+network::WallFactors wall_factors(const network::Graph& graph, std::size_t vessel,
+                                  const VesselMechanics& mechanics);
+/// Wall thickness of a vessel (m): its own where the graph has it, else by the rule for its kind; times its
+/// factor.
 double wall_thickness(const network::Graph& graph, std::size_t vessel, const VesselMechanics& mechanics);
 
 }  // namespace rhexis::hemodynamics

@@ -106,7 +106,7 @@ ParameterList declare(Parameters& p) {
        "above the capillaries.",
        ""},
   };
-  for (const ParameterList& part : {declare(p.tree), declare(p.wall)})
+  for (const ParameterList& part : {declare(p.tree), declare(p.wall), declare(p.weakness)})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

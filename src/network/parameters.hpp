@@ -1,4 +1,4 @@
-/// Input keys of the sections network, tree and wall.
+/// Input keys of the sections network, tree, wall and weakness.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "core/parameter.hpp"
 #include "network/tree_rules.hpp"
 #include "network/wall.hpp"
+#include "network/wall_variation.hpp"
 
 namespace rhexis::network {
 
@@ -34,6 +35,7 @@ struct Parameters {
   bool vtp = false;
   TreeParameters tree;
   WallParameters wall;
+  WeaknessParameters weakness;
 };
 
 /// The keys, bound to `p`.

@@ -32,7 +32,8 @@ void to_json(Json& json, const NetworkResults& network) {
                        {"lowest_pressure_Pa", or_null(network.lowest_pressure_Pa)},
                        {"solver", or_null(network.solver)},
                        {"iterations", or_null(network.iterations)},
-                       {"queries", network.queries}});
+                       {"queries", network.queries},
+                       {"screening", network.screening}});
 }
 
 void to_json(Json& json, const Results& results) {
@@ -53,6 +54,7 @@ void to_json(Json& json, const Results& results) {
                        {"energy_drift", or_null(results.energy_drift)},
                        {"network", results.network},
                        {"coupling", results.coupling},
+                       {"cascade", results.cascade},
                        {"ensemble", results.ensemble}});
 }
 

@@ -20,7 +20,8 @@ struct NetworkResults {
   std::optional<double> highest_pressure_Pa = {}, lowest_pressure_Pa = {};
   std::optional<std::string> solver = {};
   std::optional<std::int64_t> iterations = {};
-  nlohmann::ordered_json queries = nullptr;  ///< a list of the vessels that the user asked for
+  nlohmann::ordered_json queries = nullptr;    ///< a list of the vessels that the user asked for
+  nlohmann::ordered_json screening = nullptr;  ///< how many vessels are above their limit, and a list
 };
 
 /// The `results` part; a member without a value is written as null.
@@ -40,6 +41,7 @@ struct Results {
   std::optional<double> energy_drift = {};
   NetworkResults network = {};
   nlohmann::ordered_json coupling = nullptr;  ///< the vessel's place in the network, and what they exchanged
+  nlohmann::ordered_json cascade = nullptr;   ///< its events
   nlohmann::ordered_json ensemble = nullptr;  ///< pressures, samples and their cost
 };
 

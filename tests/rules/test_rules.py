@@ -19,11 +19,12 @@ MAY_INCLUDE = {
     "peridynamics": {"parallel"},
     "network": {"parallel"},
     "hemodynamics": {"network", "parallel"},
+    "screening": {"parallel", "network", "hemodynamics"},
     "coupling": {"parallel", "network", "hemodynamics", "peridynamics"},
     "ensemble": {"parallel", "network", "peridynamics"},
     "output": {"parallel"},
     "insitu": {"parallel"},
-    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "ensemble", "output", "insitu"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "screening", "coupling", "ensemble", "output", "insitu"},
 }
 
 

@@ -16,9 +16,10 @@
 namespace rhexis::peridynamics {
 
 struct Pmb {
+  static constexpr double poisson_ratio = 0.25;
+
   /// Eq. (4): c = 6 E / (pi delta^4 (1 - 2 nu)) with nu = 1/4, N/m6; E in Pa, delta in m.
   static double bond_constant(double young_modulus, double horizon) {
-    constexpr double poisson_ratio = 0.25;
     const double h2 = horizon * horizon;
     return 6 * young_modulus / (std::numbers::pi * h2 * h2 * (1 - 2 * poisson_ratio));
   }

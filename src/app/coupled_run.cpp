@@ -1,0 +1,177 @@
+#include "app/coupled_run.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "app/network_coupling.hpp"
+#include "app/network_files.hpp"
+#include "app/network_tables.hpp"
+#include "app/stopwatch.hpp"
+#include "app/vessel_run.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "output/atomic_file.hpp"
+#include "parallel/together.hpp"
+
+namespace rhexis::app {
+namespace {
+
+/// Ruptures one after the other. Each event has a folder of its own, with all that a coupled run leaves; what
+/// the cascade adds is cascade.csv and run.json beside them.
+class CascadeRun : private RunBase {
+ public:
+  CascadeRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
+      : RunBase(std::move(configuration), std::move(options), comm) {
+    if (!options_.restart.empty()) throw InputError("a cascade cannot be restarted");
+  }
+
+  Ending run() {
+    const Configuration first = c_;
+    std::optional<NetworkCoupling> next;
+    next.emplace(c_, comm_, console_);
+    open_directory(output::EarlierResults::remove);
+    open_record();
+    results_.cascade = nlohmann::ordered_json::array();
+    Ending ending = Ending::completed;
+    try {
+      start_insitu();
+      while (!next->at_rest() && ending == Ending::completed &&
+             static_cast<std::int64_t>(results_.cascade.size()) < c_.coupling.events) {
+        ending = simulate(*next);
+        const Aftermath aftermath = c_.aftermath;
+        c_ = first;
+        c_.aftermath = aftermath;
+        c_.coupling.vessel = "screening";
+        c_.network.query = first.network.query;
+        next.reset();
+        next.emplace(c_, comm_, console_);
+        tell_what_followed(*next);
+        write_table();
+      }
+      results_.network = next->network_results();
+      next->write(options_.directory);
+      finish_insitu();
+      make_movie();
+    } catch (const RunError& error) {
+      note_failure(error.what());
+      throw;
+    }
+    if (ending == Ending::interrupted) {
+      record_->fail("interrupted", results_, performance());
+    } else {
+      record_->complete(results_, performance());
+    }
+    say_summary(next->at_rest());
+    return ending;
+  }
+
+ private:
+  Ending simulate(NetworkCoupling& coupling) {
+    const auto number = results_.cascade.size() + 1;
+    const QueriedVessel vessel = coupling.vessel();
+    console_.line(fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, coupling.risk()));
+    RunOptions options = options_;
+    options.directory = options_.directory / fmt::format("event_{:02d}", number);
+    options.started = seconds_now();
+    options.pictures = pictures_;
+    coupling.set_event(number);
+    const double pressure = coupling.pressure();
+    VesselRun run(c_, options, comm_, &coupling);
+    const Ending ending = run.run();
+    spent_.add(run.spent());
+    const output::Results& r = run.results();
+    const double opening = r.opening_area_m2.value_or(0);
+    c_.aftermath.settled.push_back(static_cast<std::uint32_t>(vessel.vessel));
+    if (r.rupture_onset_s) {
+      c_.aftermath.injuries.push_back({static_cast<std::uint32_t>(vessel.vessel),
+                                       c_.coupling.outcome == "occlusion", coupling.orifice(opening)});
+    }
+    nlohmann::ordered_json event{{"event", number}, {"time_s", nullptr}, {"risk", coupling.risk()}};
+    event.update(to_json(vessel));
+    event["net_pressure_Pa"] = pressure;
+    event["ruptured"] = r.rupture_onset_s.has_value();
+    event["rupture_onset_s"] = nullptr;
+    if (r.rupture_onset_s) {
+      event["time_s"] = elapsed_ + *r.rupture_onset_s;
+      event["rupture_onset_s"] = *r.rupture_onset_s;
+    }
+    event["opening_m2"] = opening;
+    event["inflow_before_m3_s"] = coupling.inflow();
+    for (const char* later : {"inflow_after_m3_s", "leak_m3_s", "next_vessel", "next_risk"})
+      event[later] = nullptr;
+    elapsed_ += r.simulated_s.value_or(0);
+    results_.cascade.push_back(std::move(event));
+    results_.simulated_s = elapsed_;
+    pictures_->steps_before += r.steps.value_or(0) + 1;
+    pictures_->seconds_before = elapsed_;
+    return ending;
+  }
+
+  /// The last event's row is complete when the network has been solved with what it left.
+  void tell_what_followed(const NetworkCoupling& after) {
+    if (!comm_.is_root()) return;
+    nlohmann::ordered_json& event = results_.cascade.back();
+    event["inflow_after_m3_s"] = after.inflow();
+    if (event["ruptured"] && !after.leaks().empty()) event["leak_m3_s"] = after.leaks().back();
+    if (after.risk() <= 0) return;
+    event["next_vessel"] = after.vessel().name;
+    event["next_risk"] = after.risk();
+  }
+
+  /// Of the record: one row for each event.
+  void write_table() {
+    parallel::on_root<RunError>(comm_, [&] {
+      const auto columns = {"event",     "time_s",          "name",
+                            "kind",      "generation",      "risk",
+                            "ruptured",  "rupture_onset_s", "net_pressure_Pa",
+                            "opening_m2", "leak_m3_s",      "inflow_before_m3_s",
+                            "inflow_after_m3_s", "next_vessel", "next_risk"};
+      std::string table = fmt::format("{}\n", fmt::join(columns, ","));
+      for (const auto& event : results_.cascade) {
+        std::vector<std::string> row;
+        for (const char* column : columns) {
+          const auto& value = event[column];
+          row.push_back(value.is_null()     ? ""
+                        : value.is_string() ? quoted(value.template get<std::string>())
+                                            : value.dump());
+        }
+        table += fmt::format("{}\n", fmt::join(row, ","));
+      }
+      output::write_atomically(options_.directory / "cascade.csv", table);
+    });
+  }
+
+  void say_summary(bool at_rest) {
+    console_.line("Cascade:");
+    if (comm_.is_root()) {
+      for (const auto& event : results_.cascade) {
+        const bool ruptured = event["ruptured"];
+        console_.item(
+            fmt::format("event {}", event["event"].get<int>()),
+            fmt::format("{}, risk {:.3f}: {}", event["name"].get<std::string>(), event["risk"].get<double>(),
+                        ruptured ? fmt::format("ruptured at {}, inflow {:.4g} to {:.4g} mL/min",
+                                               quantity(event["time_s"].get<double>(), "s"),
+                                               event["inflow_before_m3_s"].get<double>() * 6e7,
+                                               event["inflow_after_m3_s"].get<double>() * 6e7)
+                                 : std::string("held")));
+      }
+    }
+    console_.item("ended", at_rest ? fmt::format("no vessel's risk is above {}", text(c_.coupling.risk_limit))
+                                   : "after cascade.events");
+    say_cost(performance());
+  }
+
+  double elapsed_ = 0;  ///< s, simulated in all events
+};
+
+}  // namespace
+
+Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm) {
+  if (configuration.coupling.events > 0) return CascadeRun(std::move(configuration), options, comm).run();
+  Console console(comm.is_root(), options.quiet);
+  NetworkCoupling coupling(configuration, comm, console);
+  return VesselRun(std::move(configuration), options, comm, &coupling).run();
+}
+
+}  // namespace rhexis::app
