@@ -159,10 +159,11 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
     if (entry.key != "scene.model") continue;
     if (const auto* text = std::get_if<std::string>(&entry.value.content)) model = *text;
   }
-  const ParameterList* chosen = &models[0].second;
+  const ParameterList* chosen = nullptr;
   for (const auto& [name, keys] : models) {
     if (name == model) chosen = &keys;
   }
+  if (chosen == nullptr) return declare(c);  // the reader will refuse the model
   const auto has_section = [](const ParameterList& keys, const std::string& section) {
     const auto sections = input::sections_of(keys);
     return std::find(sections.begin(), sections.end(), section) != sections.end();
