@@ -58,7 +58,10 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   const Lattice lattice = peridynamics::make_lattice(c.vessel);
   const BondFamilies families = peridynamics::make_families(lattice);
   const bool periodic = peridynamics::end_condition(c.vessel) == peridynamics::EndCondition::axial_periodic;
-  const double step = seconds_per_step(c, lattice, families, comm);
+  // A sample of an ensemble belongs to one rank, while the others have theirs.
+  const double step = comm.all_reduce(
+      seconds_per_step(c, lattice, families, c.is_ensemble() ? parallel::Communicator::self() : comm),
+      parallel::Reduce::max);
 
   Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
@@ -78,15 +81,31 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));
+  const std::string processors =
+      fmt::format("{} rank{} x {} thread{}", comm.size(), comm.size() > 1 ? "s" : "",
+                  parallel::thread_count(), parallel::thread_count() > 1 ? "s" : "");
+  const double bytes = body_bytes(c, lattice, families, c.is_ensemble() ? 1 : comm.size());
+  if (c.is_ensemble()) {
+    const ensemble::Parameters& e = c.ensemble;
+    console.item("pressures", fmt::format("{} from {} to {}", e.pressures.size(), mmhg(e.pressures.front()),
+                                          mmhg(e.pressures.back())));
+    console.item("samples",
+                 fmt::format("{} = {} walls x {} pressures; the numbers above are of the mean wall",
+                             grouped(e.vessels()), e.samples, e.pressures.size()));
+    console.item("memory", fmt::format("about {:.0f} MB for the wall, on each rank", bytes / 1e6));
+    const double sample = step * static_cast<double>(c.steps);
+    const auto rounds = (e.vessels() + comm.size() - 1) / comm.size();
+    console.item("time",
+                 fmt::format("at most about {} ({} a sample that lasts to the end; those that rupture "
+                             "stop there) on {} (measured now)",
+                             duration(sample * static_cast<double>(rounds)), duration(sample), processors));
+    return;
+  }
   console.item("outputs", grouped(static_cast<long long>(c.output_steps.size())));
-  console.item("memory", fmt::format("about {:.0f} MB for the wall, all ranks together",
-                                     body_bytes(c, lattice, families, comm.size()) / 1e6));
-  console.item(
-      "time",
-      fmt::format("about {} of solving on {} rank{} x {} thread{} (measured now; output and pictures "
-                  "come on top)",
-                  duration(step * static_cast<double>(c.steps)), comm.size(), comm.size() > 1 ? "s" : "",
-                  parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
+  console.item("memory", fmt::format("about {:.0f} MB for the wall, all ranks together", bytes / 1e6));
+  console.item("time",
+               fmt::format("about {} of solving on {} (measured now; output and pictures come on top)",
+                           duration(step * static_cast<double>(c.steps)), processors));
 }
 
 }  // namespace

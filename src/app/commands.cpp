@@ -9,6 +9,7 @@
 #include "app/check.hpp"
 #include "app/configuration.hpp"
 #include "app/coupled_run.hpp"
+#include "app/ensemble_run.hpp"
 #include "app/network_run.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
@@ -73,6 +74,7 @@ int carry_out(const Command& command, parallel::Communicator comm) {
   options.started = started;
   const auto run = [&] {
     if (configuration.model == "network") return NetworkRun(std::move(configuration), options, comm).run();
+    if (configuration.is_ensemble()) return EnsembleRun(std::move(configuration), options, comm).run();
     if (configuration.is_coupled()) return run_coupled(std::move(configuration), options, comm);
     return VesselRun(std::move(configuration), options, comm).run();
   };

@@ -6,15 +6,15 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "ensemble/walls.hpp"
 #include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/units.hpp"
-#include "peridynamics/bond_family.hpp"
-#include "peridynamics/cross_section.hpp"
 #include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
+#include "peridynamics/time_steps.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -33,29 +33,17 @@ std::string read_on_root(const std::string& file, parallel::Communicator comm) {
   return comm.broadcast(text);
 }
 
-/// The stable time step, and the one to take: the user's, or a share of the stable one that divides the end
-/// time evenly.
 void settle_time_step(Configuration& c) {
   const peridynamics::Lattice lattice = peridynamics::make_lattice(c.vessel);
   peridynamics::make_pressure_layer(c.vessel, lattice);  // throws where no particle would be loaded
-  c.stable_time_step = peridynamics::stable_time_step(
-      lattice, peridynamics::make_families(lattice),
-      peridynamics::Pmb::bond_constant(c.vessel.young_modulus, *c.vessel.horizon), c.vessel.density);
-  c.time_step = c.vessel.time_step.value_or(c.vessel.step_fraction * c.stable_time_step);
-  if (c.time_step > c.stable_time_step) {
-    throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +
-                         quantity(0.9995 * c.stable_time_step, "s", 3) + "; take less, or \"auto\" for " +
-                         quantity(c.vessel.step_fraction * c.stable_time_step, "s"),
-                     "time.step");
-  }
-  const double steps = c.vessel.end_time / c.time_step;
-  if (steps > 1e12) throw InputError("the run would take " + text(steps) + " steps", "time.end");
-  c.steps = std::max(1L, static_cast<long>(std::ceil(steps - 1e-6)));
-  if (!c.vessel.time_step) {
-    c.time_step = c.vessel.end_time / static_cast<double>(c.steps);
-  } else if (std::abs(steps - static_cast<double>(c.steps)) > 1e-3) {
-    c.warnings.push_back("time.end is not a whole number of steps; the run ends at " +
-                         quantity(static_cast<double>(c.steps) * c.time_step, "s", 6));
+  const peridynamics::TimeSteps time =
+      peridynamics::time_steps(c.vessel, lattice, peridynamics::make_families(lattice));
+  c.stable_time_step = time.stable;
+  c.time_step = time.step;
+  c.steps = time.count;
+  const double end = static_cast<double>(c.steps) * c.time_step;
+  if (std::abs(c.vessel.end_time - end) > 1e-3 * c.time_step) {
+    c.warnings.push_back("time.end is not a whole number of steps; the run ends at " + quantity(end, "s", 6));
   }
 }
 
@@ -89,17 +77,18 @@ void append(ParameterList& all, const ParameterList& part) {
 }
 
 ParameterList declare_scene(Configuration& c) {
-  return {
-      {"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
-      {"scene.model",
-       &c.model,
-       "",
-       "\"vessel\"",
-       "What is simulated: the rupture of one vessel's wall, the flow in a network of vessels, or both: the "
-       "rupture of a vessel of a network.",
-       "Sec. 3.3",
-       {},
-       {"vessel", "network", "coupled"}}};
+  return {{"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
+          {"scene.model",
+           &c.model,
+           "",
+           "\"vessel\"",
+           "What is simulated: the rupture of one vessel's wall; the flow in a network of vessels; both: the "
+           "rupture of a vessel of a network; or how probably a vessel ruptures, from many walls whose "
+           "properties "
+           "scatter.",
+           "Sec. 3.3",
+           {},
+           {"vessel", "network", "coupled", "ensemble"}}};
 }
 
 ParameterList declare_vessel(Configuration& c) {
@@ -139,47 +128,73 @@ ParameterList declare_coupled(Configuration& c) {
   return all;
 }
 
+/// Keys of a vessel that an ensemble takes over, or that do nothing there: walls take a stable time step
+/// each, and are simulated to the onset of rupture, before any venting and without output.
+bool ensemble_settles(const std::string& key) {
+  return input::section_of(key) == "output" || key == "load.pressure" || key == "load.table" ||
+         key == "load.venting" || key == "load.supply_area" || key == "load.discharge_coefficient" ||
+         key == "load.blood_density" || key == "time.step";
+}
+
+ParameterList declare_ensemble(Configuration& c) {
+  ParameterList all = ensemble::declare(c.ensemble);
+  for (Parameter& parameter : declare_vessel(c)) {
+    if (parameter.key == "load.schedule") std::erase(parameter.choices, "table");
+    if (!ensemble_settles(parameter.key)) all.push_back(parameter);
+  }
+  return all;
+}
+
 /// The keys of the scene's model, as the document gives it; a key of another model's is refused.
 ParameterList declare_model(Configuration& c, const input::Document& document) {
-  const std::pair<std::string, ParameterList> models[] = {
-      {"vessel", declare_vessel(c)}, {"network", declare_network(c)}, {"coupled", declare_coupled(c)}};
+  std::pair<std::string, ParameterList> models[] = {{"vessel", declare_vessel(c)},
+                                                    {"network", declare_network(c)},
+                                                    {"coupled", declare_coupled(c)},
+                                                    {"ensemble", declare_ensemble(c)}};
+  for (auto& [name, keys] : models) {
+    if (name != "ensemble") append(keys, insitu::declare(c.insitu));
+  }
   std::string model = "vessel";
   for (const input::Entry& entry : document.entries) {
     if (entry.key != "scene.model") continue;
     if (const auto* text = std::get_if<std::string>(&entry.value.content)) model = *text;
   }
-  const ParameterList* chosen = &models[0].second;
+  const ParameterList* chosen = nullptr;
   for (const auto& [name, keys] : models) {
     if (name == model) chosen = &keys;
   }
-  const auto has = [](const ParameterList& keys, const std::string& section) {
+  if (chosen == nullptr) return declare(c);  // the reader will refuse the model
+  const auto has_section = [](const ParameterList& keys, const std::string& section) {
     const auto sections = input::sections_of(keys);
     return std::find(sections.begin(), sections.end(), section) != sections.end();
   };
-  const auto refuse = [&](const std::string& place, const std::string& section) {
-    if (has(*chosen, section)) return;
-    for (const auto& [name, keys] : models) {
-      if (!has(keys, section)) continue;
-      throw InputError(place + ": section [" + section + "] belongs to scenes with scene.model = \"" + name +
+  const auto has_key = [](const ParameterList& keys, const std::string& key) {
+    return input::find(keys, key) != nullptr;
+  };
+  const auto refuse = [&](const std::string& place, const std::string& what, const std::string& name,
+                          const auto& has) {
+    if (has(*chosen, name)) return;
+    for (const auto& [other, keys] : models) {
+      if (!has(keys, name)) continue;
+      throw InputError(place + ": " + what + " belongs to scenes with scene.model = \"" + other +
                        "\"; this scene's is \"" + model + "\"");
     }
   };
   for (const input::Section& section : document.sections) {
-    refuse(document.file + ":" + std::to_string(section.line), section.name);
+    refuse(document.file + ":" + std::to_string(section.line), "section [" + section.name + "]", section.name,
+           has_section);
   }
   for (const input::Entry& entry : document.entries) {
-    refuse(document.place(entry), input::section_of(entry.key));
-    if (model != "coupled" || input::section_of(entry.key) == "vessel") continue;
-    const bool of_network = network_knows(entry.key);
-    if (of_network || vessel_knows(entry.key)) {
-      throw InputError(document.place(entry) + (of_network
-                                                    ? ": the network says this of a coupled vessel"
-                                                    : ": section [material] says this of a coupled network"));
-    }
+    const std::string section = input::section_of(entry.key);
+    refuse(document.place(entry), "section [" + section + "]", section, has_section);
+    if (model == "coupled" && network_knows(entry.key))
+      throw InputError(document.place(entry) + ": the network says this of a coupled vessel");
+    if (model == "coupled" && vessel_knows(entry.key))
+      throw InputError(document.place(entry) + ": section [material] says this of a coupled network");
+    refuse(document.place(entry), "this key", entry.key, has_key);
   }
   ParameterList all = declare_scene(c);
   append(all, *chosen);
-  append(all, insitu::declare(c.insitu));
   return all;
 }
 
@@ -187,7 +202,15 @@ void resolve_vessel(Configuration& c) {
   const auto warnings = peridynamics::resolve(c.vessel);
   c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
   settle_time_step(c);
+  if (c.is_ensemble()) return;
   c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
+}
+
+void resolve_ensemble(Configuration& c) {
+  ensemble::resolve(c.ensemble);
+  resolve_vessel(c);  // the mean one
+  const auto warnings = ensemble::check_walls(c.ensemble, c.vessel);
+  c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
 }
 
 void resolve_network(Configuration& c, parallel::Communicator comm) {
@@ -303,6 +326,7 @@ ParameterList declare(Configuration& c) {
   append(all, declare_vessel(c));
   append(all, declare_network(c));
   append(all, coupling::declare(c.coupling));
+  append(all, ensemble::declare(c.ensemble));
   append(all, insitu::declare(c.insitu));
   return all;
 }
@@ -316,6 +340,8 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
   try {
     if (c.model == "vessel") {
       resolve_vessel(c);
+    } else if (c.is_ensemble()) {
+      resolve_ensemble(c);
     } else {
       resolve_network(c, comm);
       if (c.is_coupled()) resolve_coupling(c);

@@ -8,6 +8,7 @@
 #include "core/parameter.hpp"
 #include "coupling/injured_graph.hpp"
 #include "coupling/parameters.hpp"
+#include "ensemble/parameters.hpp"
 #include "hemodynamics/parameters.hpp"
 #include "input/reader.hpp"
 #include "insitu/parameters.hpp"
@@ -28,12 +29,13 @@ struct Aftermath {
 struct Configuration {
   std::string file;
   std::string title;
-  std::string model;  ///< "vessel" | "network" | "coupled"
+  std::string model;  ///< "vessel" | "network" | "coupled" | "ensemble"
   peridynamics::Parameters vessel;
   network::Parameters network;
   hemodynamics::Parameters hemodynamics;
   screening::Parameters screening;
   coupling::Parameters coupling;
+  ensemble::Parameters ensemble;
   output::Parameters output;
   insitu::Parameters insitu;
 
@@ -41,6 +43,7 @@ struct Configuration {
   network::TreeRules tree;  ///< where network.source = "tree"
 
   bool is_coupled() const { return model == "coupled"; }
+  bool is_ensemble() const { return model == "ensemble"; }
 
   double stable_time_step = 0;  ///< s
   double time_step = 0;         ///< s

@@ -58,7 +58,7 @@ void Console::warning(const std::string& text) {
   fmt::print(stderr, "rhexis: warning: {}\n", text);
 }
 
-void Console::progress(long step, long steps, const std::string& state) {
+void Console::progress(long step, long steps, const std::string& state, const std::string& what) {
   if (!speaks_) return;
   const double now = seconds_now();
   if (first_step_ < 0) {
@@ -71,7 +71,8 @@ void Console::progress(long step, long steps, const std::string& state) {
   const double rate = static_cast<double>(step - first_step_) / elapsed;
   const double left = static_cast<double>(steps - step) / rate;
   const auto text = [&] {
-    return fmt::format("step {}/{}  {}  {:.0f} steps/s, {} left", step, steps, state, rate, duration(left));
+    return fmt::format("{} {}/{}  {}  {} {}s/s, {} left", what, step, steps, state,
+                       fmt::format("{:.{}f}", rate, rate < 10 ? 1 : 0), what, duration(left));
   };
   if (terminal_) {
     if (now - last_drawn_ < 0.2 && step < steps) return;

@@ -23,7 +23,8 @@ class Console {
   void warning(const std::string& text);
 
   /// A bar with rate and time left where stdout is a terminal; else a line at every tenth of the way.
-  void progress(long step, long steps, const std::string& state);
+  /// `what` is counted.
+  void progress(long step, long steps, const std::string& state, const std::string& what = "step");
 
  private:
   void clear_bar();

@@ -21,10 +21,6 @@ constexpr const char* table_header =
     "time_s,schedule,net_pressure_from_Pa,net_pressure_middle_Pa,net_pressure_to_Pa,opening_m2,leak_m3_s,"
     "inflow_m3_s,outflow_m3_s,resistance_factor,imbalance\n";
 
-std::string mmhg(double pascal) {
-  return fmt::format("{:.4g} mmHg", pascal / 133.322387415);
-}
-
 }  // namespace
 
 NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, Console& console)

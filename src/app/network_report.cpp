@@ -10,10 +10,6 @@
 namespace rhexis::app {
 namespace {
 
-std::string mmhg(double pascal) {
-  return fmt::format("{:.4g} mmHg", pascal / 133.322387415);
-}
-
 std::string flow_text(double flow) {
   // Prefixes are for magnitudes; a vessel may flow against its direction.
   return fmt::format("{}{}", flow < 0 ? "-" : "", quantity(std::abs(flow) * 6e4, "L/min"));

@@ -94,7 +94,7 @@ void RunBase::say_warnings() {
 void RunBase::say_surroundings() {
   console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
                                         parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
-  console_.item("pictures", pictures_->description);
+  if (pictures_) console_.item("pictures", pictures_->description);
   console_.item("results", options_.directory.string());
 }
 

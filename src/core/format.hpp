@@ -31,4 +31,9 @@ inline std::string quantity(double value, const std::string& unit, int digits = 
   return text(value, digits) + " " + unit;
 }
 
+/// A pressure (Pa) as physicians have it: "120 mmHg".
+inline std::string mmhg(double pascal, int digits = 4) {
+  return text(pascal / 133.322387415, digits) + " mmHg";
+}
+
 }  // namespace rhexis

@@ -16,7 +16,13 @@ namespace rhexis::network {
 constexpr int rounds = 7;
 
 /// What is drawn. Walls: of arteries, + 1 of veins.
-enum class Stream : std::uint32_t { splits = 0, lengths = 1, wall_strength = 2, wall_thickness = 4 };
+enum class Stream : std::uint32_t {
+  splits = 0,
+  lengths = 1,
+  wall_strength = 2,
+  wall_thickness = 4,
+  wall_stiffness = 6
+};
 
 constexpr std::uint64_t counter_of(std::uint64_t number) {
   return ((number >> 5) << 3) | (number & 7);

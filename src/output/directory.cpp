@@ -24,7 +24,8 @@ bool is_result(std::string name) {
   if (name.ends_with(".part")) name.resize(name.size() - 5);
   constexpr std::array fixed = {"run.json",       "history.csv", "particles.xdmf", "particles.h5",
                                 "network.xdmf",   "network.h5",  "network.vtp",    "generations.csv",
-                                "histograms.csv", "vessels.csv", "movie.mp4"};
+                                "histograms.csv", "vessels.csv", "movie.mp4",      "samples.csv",
+                                "probability.csv"};
   return std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
          (name.starts_with("particles_from_") && (name.ends_with(".h5") || name.ends_with(".xdmf")));
 }

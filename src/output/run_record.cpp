@@ -54,7 +54,8 @@ void to_json(Json& json, const Results& results) {
                        {"energy_drift", or_null(results.energy_drift)},
                        {"network", results.network},
                        {"coupling", results.coupling},
-                       {"cascade", results.cascade}});
+                       {"cascade", results.cascade},
+                       {"ensemble", results.ensemble}});
 }
 
 void to_json(Json& json, const Performance& performance) {

@@ -42,6 +42,7 @@ struct Results {
   NetworkResults network = {};
   nlohmann::ordered_json coupling = nullptr;  ///< the vessel's place in the network, and what they exchanged
   nlohmann::ordered_json cascade = nullptr;   ///< its events
+  nlohmann::ordered_json ensemble = nullptr;  ///< pressures, samples and their cost
 };
 
 /// The `performance` part; a member without a value is written as null.

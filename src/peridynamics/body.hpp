@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -46,6 +47,13 @@ struct Totals {
   std::int64_t broken_bonds = 0;  ///< undirected
   double rupture_length = 0;      ///< m, axial extent of damage >= rupture_damage, reference rows
 };
+
+/// Whether the energies fit the work done. Energy out of nowhere, or none to speak of, is the surest sign of
+/// a time step that is too long.
+inline bool holds_no_more_than_was_put_in(const Totals& t) {
+  const double energy = t.kinetic + t.strain + t.fracture;
+  return std::isfinite(energy) && energy <= 2 * std::abs(t.external_work);
+}
 
 /// This rank's part of the table of bond words of the whole body: a row per bond of each column's family, a
 /// word per 16 particles along the axis.

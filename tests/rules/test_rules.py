@@ -21,9 +21,10 @@ MAY_INCLUDE = {
     "hemodynamics": {"network", "parallel"},
     "screening": {"parallel", "network", "hemodynamics"},
     "coupling": {"parallel", "network", "hemodynamics", "peridynamics"},
+    "ensemble": {"parallel", "network", "peridynamics"},
     "output": {"parallel"},
     "insitu": {"parallel"},
-    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "screening", "coupling", "output", "insitu"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "screening", "coupling", "ensemble", "output", "insitu"},
 }
 
 

@@ -37,11 +37,12 @@ TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
             (std::vector<std::string>{"particles", "bonds", "family_max", "time_step_s", "stable_time_step_s",
                                       "steps", "simulated_s", "first_bond_break_s", "rupture_onset_s",
                                       "max_displacement_at_onset_m", "max_displacement_m", "max_damage",
-                                      "rupture_length_m", "opening_area_m2", "energy_drift", "network"}));
+                                      "rupture_length_m", "opening_area_m2", "energy_drift", "network",
+                                      "coupling", "cascade", "ensemble"}));
   EXPECT_EQ(keys_of(json["results"]["network"]),
             (std::vector<std::string>{"vessels", "junctions", "inflow_m3_s", "max_imbalance", "volume_m3",
                                       "surface_m2", "highest_pressure_Pa", "lowest_pressure_Pa", "solver",
-                                      "iterations", "queries"}));
+                                      "iterations", "queries", "screening"}));
   EXPECT_EQ(keys_of(json["performance"]),
             (std::vector<std::string>{"ranks", "threads", "wall_s", "solve_s", "insitu_s", "output_s",
                                       "bond_evaluations", "bond_evaluations_per_s", "flop", "peak_rss_bytes",

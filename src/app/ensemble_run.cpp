@@ -1,0 +1,322 @@
+#include "app/ensemble_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "app/interrupt.hpp"
+#include "app/stopwatch.hpp"
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "ensemble/sample_table.hpp"
+#include "output/atomic_file.hpp"
+#include "parallel/together.hpp"
+
+namespace rhexis::app {
+namespace {
+
+using ensemble::Sample;
+using Json = nlohmann::ordered_json;
+
+/// Time between gatherings that is aimed at, s: what a crash may cost, against ranks that wait for others.
+constexpr double round_s = 5;
+
+/// Keys that do not change a sample: a folder may hold what several of their values asked for.
+bool only_chooses_samples(const std::string& key) {
+  constexpr std::array free = {"scene.title",
+                               "ensemble.pressures",
+                               "ensemble.lowest_pressure",
+                               "ensemble.highest_pressure",
+                               "ensemble.pressure_count",
+                               "ensemble.samples"};
+  return std::find(free.begin(), free.end(), key) != free.end();
+}
+
+/// The first key in which the inputs of two ensembles differ, with both values; empty where samples of one
+/// are samples of the other.
+std::string difference(const Json& earlier, const Json& now) {
+  for (const auto& [section, keys] : now.items()) {
+    for (const auto& [name, entry] : keys.items()) {
+      const std::string key = section + "." + name;
+      if (only_chooses_samples(key)) continue;
+      const Json::json_pointer place("/" + section + "/" + name);
+      const Json was =
+          earlier.contains(place) ? earlier[place] : Json{{"value", nullptr}, {"written", "none"}};
+      if (was.value("value", Json()) != entry["value"])
+        return fmt::format("{} was {}, and now is {}", key, was.value("written", Json()).dump(),
+                           entry["written"].dump());
+    }
+  }
+  return {};
+}
+
+std::string whole_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Samples as numbers, for ranks to tell each other.
+constexpr std::size_t numbers_per_sample = 10;
+
+std::array<double, numbers_per_sample> to_numbers(const Sample& s) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  return {
+      s.pressure,          static_cast<double>(s.wall), s.factors.strength,     s.factors.thickness,
+      s.factors.stiffness, s.ruptured ? 1.0 : 0.0,      s.onset.value_or(none), s.first_break.value_or(none),
+      s.max_displacement,  static_cast<double>(s.steps)};
+}
+
+Sample from_numbers(const double* n) {
+  const auto optional = [](double x) { return std::isnan(x) ? std::nullopt : std::optional<double>(x); };
+  return {.pressure = n[0],
+          .wall = std::llround(n[1]),
+          .factors = {n[2], n[3], n[4]},
+          .ruptured = n[5] == 1,
+          .onset = optional(n[6]),
+          .first_break = optional(n[7]),
+          .max_displacement = n[8],
+          .steps = std::llround(n[9])};
+}
+
+}  // namespace
+
+EnsembleRun::EnsembleRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
+    : RunBase(std::move(configuration), std::move(options), comm) {
+  if (!options_.restart.empty()) {
+    throw InputError(
+        "--restart is for scenes with scene.model = \"vessel\"; an ensemble goes on where it stopped "
+        "when the same command is given again");
+  }
+}
+
+Ending EnsembleRun::run() {
+  read_earlier();
+  plan();
+  try {
+    open_results();
+    say_header();
+    run_samples();
+    finish();
+  } catch (const RunError& error) {
+    note_failure(error.what());
+    throw;
+  }
+  if (interrupted_) {
+    record_->fail("interrupted", results_, performance());
+  } else {
+    record_->complete(results_, performance());
+  }
+  say_summary();
+  return interrupted_ ? Ending::interrupted : Ending::completed;
+}
+
+/// The samples that an earlier run left in the folder.
+void EnsembleRun::read_earlier() {
+  const std::filesystem::path path = options_.directory / "samples.csv",
+                              record = options_.directory / "run.json";
+  std::string text;
+  parallel::on_root<InputError>(comm_, [&] {
+    if (!std::filesystem::exists(path)) return;
+    text = whole_file(path);
+    if (ensemble::read_samples(text, path.string()).empty()) return;
+    const Json earlier = Json::parse(whole_file(record), nullptr, false);
+    const std::string differs = earlier.is_object() && earlier.contains("input")
+                                    ? difference(earlier["input"], c_.record)
+                                    : record.string() + " does not tell of which";
+    if (differs.empty()) return;
+    throw InputError(fmt::format(
+        "{} holds samples of another ensemble ({}); choose another folder with -o, or remove that file",
+        path.string(), differs));
+  });
+  samples_ = ensemble::read_samples(comm_.broadcast(text), path.string());
+  earlier_ = samples_.size();
+}
+
+void EnsembleRun::plan() {
+  std::set<Task> done;
+  for (const Sample& s : samples_) done.emplace(s.wall, s.pressure);
+  // Wall by wall, so that the pressures' curves grow together.
+  for (std::int64_t wall = 0; wall < c_.ensemble.samples; ++wall) {
+    for (const double pressure : c_.ensemble.pressures) {
+      if (!done.contains({wall, pressure})) tasks_.emplace_back(wall, pressure);
+    }
+  }
+}
+
+void EnsembleRun::open_results() {
+  open_directory(earlier_ > 0 ? output::EarlierResults::keep : output::EarlierResults::remove);
+  open_record();
+  const std::filesystem::path path = options_.directory / "samples.csv";
+  parallel::on_root<RunError>(comm_, [&] {
+    std::string text = ensemble::sample_header;
+    for (const Sample& s : samples_) text += ensemble::row(s);
+    output::write_atomically(path, text);
+    table_.open(path, std::ios::binary | std::ios::app);
+    if (!table_) throw RunError(path.string() + ": cannot be written");
+  });
+}
+
+void EnsembleRun::say_header() {
+  const peridynamics::Parameters& v = c_.vessel;
+  const ensemble::Parameters& e = c_.ensemble;
+  say_input();
+  console_.item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}; spacing {}",
+                                      quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
+                                      quantity(v.length, "m"), v.ends, quantity(*v.spacing, "m")));
+  console_.item("pressures",
+                fmt::format("{} from {} to {} ({}), up to {}", e.pressures.size(), mmhg(e.pressures.front()),
+                            mmhg(e.pressures.back()), v.schedule, quantity(v.end_time, "s")));
+  console_.item("walls", fmt::format("{} (seed {}); spreads: strength {}, thickness {}, stiffness {}",
+                                     e.samples, e.seed, text(e.strength_spread), text(e.thickness_spread),
+                                     text(e.stiffness_spread)));
+  console_.item("samples", fmt::format("{}, {} of them done before", grouped(e.vessels()),
+                                       grouped(e.vessels() - static_cast<long long>(tasks_.size()))));
+  say_surroundings();
+}
+
+void EnsembleRun::run_samples() {
+  const InterruptGuard guard;
+  const auto ranks = static_cast<std::size_t>(comm_.size());
+  const auto total = static_cast<long>(c_.ensemble.vessels());
+  const auto progress = [&](std::size_t next) {
+    const auto ruptured =
+        std::count_if(samples_.begin(), samples_.end(), [](const Sample& s) { return s.ruptured; });
+    console_.progress(total - static_cast<long>(tasks_.size() - next), total,
+                      fmt::format("{} ruptured", grouped(ruptured)), "sample");
+  };
+  progress(0);
+  std::size_t each = 1;  // samples of a rank in a round
+  for (std::size_t next = 0; next < tasks_.size() && !interrupted_;) {
+    const std::size_t count = std::min(each * ranks, tasks_.size() - next);
+    const double start = seconds_now();
+    interrupted_ = run_round(next, count);
+    const double per_sample =
+        comm_.all_reduce((seconds_now() - start) / static_cast<double>(each), parallel::Reduce::max);
+    each = static_cast<std::size_t>(std::clamp(round_s / per_sample, 1.0, 1000.0));
+    next += count;
+    if (!interrupted_) progress(next);
+  }
+}
+
+/// Does tasks [first, first + count) and keeps what has come of them. Whether an interrupt ended it.
+bool EnsembleRun::run_round(std::size_t first, std::size_t count) {
+  const auto ranks = static_cast<std::size_t>(comm_.size()), rank = static_cast<std::size_t>(comm_.rank());
+  std::vector<Sample> finished;
+  std::string failure;
+  {
+    const Stopwatch watch(spent_.solve);
+    std::vector<Sample> own;
+    try {
+      const Stopwatch alone(sample_s_);
+      for (std::size_t turn = 0; turn * ranks < count; ++turn) {
+        // To and fro, for higher pressures take less time.
+        const std::size_t i = turn * ranks + (turn % 2 == 0 ? rank : ranks - 1 - rank);
+        if (i >= count) continue;
+        const auto& [wall, pressure] = tasks_[first + i];
+        const auto sample = ensemble::simulate(c_.ensemble, c_.vessel, pressure, wall,
+                                               InterruptGuard::requested, bond_evaluations_);
+        if (!sample) break;
+        own.push_back(*sample);
+      }
+    } catch (const std::exception& error) {
+      failure = error.what();
+    }
+    finished = gather(own, count);
+  }
+  keep(finished);
+  failure = comm_.first_non_empty(failure);
+  if (!failure.empty()) throw RunError(failure);
+  const bool asked = comm_.all_reduce(std::int64_t{InterruptGuard::requested()}, parallel::Reduce::max) != 0;
+  return asked && samples_.size() - earlier_ < tasks_.size();
+}
+
+/// The finished samples of all ranks, in order, on every rank. `count`: at most.
+std::vector<Sample> EnsembleRun::gather(const std::vector<Sample>& own, std::size_t count) const {
+  // Every sample has a place that one rank writes to; to add zeros is exact.
+  const auto ranks = static_cast<std::size_t>(comm_.size());
+  const std::size_t each = (count + ranks - 1) / ranks;
+  std::vector<double> numbers(each * ranks * numbers_per_sample);
+  auto place = numbers.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(comm_.rank()) * each *
+                                                             numbers_per_sample);
+  for (const Sample& s : own) {
+    const auto values = to_numbers(s);
+    place = std::copy(values.begin(), values.end(), place);
+  }
+  comm_.all_reduce(numbers, parallel::Reduce::sum);
+  std::vector<Sample> all;
+  for (std::size_t i = 0; i < numbers.size(); i += numbers_per_sample) {
+    if (numbers[i] > 0) all.push_back(from_numbers(&numbers[i]));  // a sample has a pressure
+  }
+  std::sort(all.begin(), all.end(), ensemble::comes_before);
+  return all;
+}
+
+void EnsembleRun::keep(const std::vector<Sample>& finished) {
+  const Stopwatch watch(spent_.output);
+  samples_.insert(samples_.end(), finished.begin(), finished.end());
+  parallel::on_root<RunError>(comm_, [&] {
+    for (const Sample& s : finished) table_ << ensemble::row(s);
+    if (!(table_ << std::flush))
+      throw RunError((options_.directory / "samples.csv").string() + ": cannot be written");
+  });
+}
+
+/// Puts all samples in order, whatever runs they come from, and counts.
+void EnsembleRun::finish() {
+  const std::size_t now = samples_.size() - earlier_;
+  std::sort(samples_.begin(), samples_.end(), ensemble::comes_before);
+  probabilities_ = ensemble::probabilities(samples_);
+  {
+    const Stopwatch watch(spent_.output);
+    parallel::on_root<RunError>(comm_, [&] {
+      table_.close();
+      std::string text = ensemble::sample_header;
+      for (const Sample& s : samples_) text += ensemble::row(s);
+      output::write_atomically(options_.directory / "samples.csv", text);
+      output::write_atomically(options_.directory / "probability.csv",
+                               ensemble::probability_table(probabilities_));
+    });
+  }
+  const double sample_s = comm_.all_reduce(sample_s_, parallel::Reduce::sum);
+  std::int64_t steps = 0, ruptured = 0;
+  for (const Sample& s : samples_) {
+    steps += s.steps;
+    ruptured += s.ruptured ? 1 : 0;
+  }
+  results_.ensemble = {{"pressures", probabilities_.size()},
+                       {"samples", samples_.size()},
+                       {"samples_of_earlier_runs", earlier_},
+                       {"ruptured", ruptured},
+                       {"steps", steps},
+                       {"rank_seconds_per_sample", nullptr},
+                       {"samples_left", static_cast<std::int64_t>(tasks_.size() - now)}};
+  if (now > 0) results_.ensemble["rank_seconds_per_sample"] = sample_s / static_cast<double>(now);
+}
+
+void EnsembleRun::say_summary() {
+  console_.line(interrupted_ ? "Interrupted; finished samples are saved. The same command goes on."
+                             : "Done.");
+  console_.line("    pressure    samples  ruptured  probability   95 % interval   mean onset");
+  for (const ensemble::Probability& p : probabilities_) {
+    const auto [low, high] = p.interval();
+    console_.line(fmt::format("  {:>12}  {:>7}  {:>8}  {:>11.3f}  {:.3f} to {:.3f}  {:>11}", mmhg(p.pressure),
+                              p.samples, p.ruptured, p.value(), low, high,
+                              p.mean_onset ? quantity(*p.mean_onset, "s", 3) : "none"));
+  }
+  const Json& each = results_.ensemble["rank_seconds_per_sample"];
+  console_.item("samples",
+                fmt::format("{} in all, {} new; {}", grouped(static_cast<long long>(samples_.size())),
+                            grouped(static_cast<long long>(samples_.size() - earlier_)),
+                            each.is_null() ? "none simulated"
+                                           : quantity(each.get<double>(), "s", 3) + " each on one rank"));
+  say_cost(performance());
+}
+
+}  // namespace rhexis::app

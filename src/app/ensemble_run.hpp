@@ -1,0 +1,50 @@
+/// Probability of rupture against pressure: many vessels with scattered walls, shared among the ranks.
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "app/run_base.hpp"
+#include "ensemble/probability.hpp"
+#include "ensemble/sample.hpp"
+
+namespace rhexis::app {
+
+/// Results are samples.csv, a row per vessel, kept while the run goes on, and probability.csv at its end. The
+/// same run into the same folder goes on from the rows that are there. Rows and their order do not depend on
+/// ranks, threads or restarts.
+class EnsembleRun : private RunBase {
+ public:
+  EnsembleRun(Configuration configuration, RunOptions options, parallel::Communicator comm);
+
+  /// Throws RunError (after noting it in run.json) or InputError (nothing written).
+  Ending run();
+
+ private:
+  using Task = std::pair<std::int64_t, double>;  ///< wall, pressure
+
+  void read_earlier();
+  void plan();
+  void open_results();
+  void say_header();
+  void run_samples();
+  bool run_round(std::size_t first, std::size_t count);
+  std::vector<ensemble::Sample> gather(const std::vector<ensemble::Sample>& own, std::size_t count) const;
+  void keep(const std::vector<ensemble::Sample>& finished);
+  void finish();
+  void say_summary();
+  std::optional<std::int64_t> bond_evaluations() const override { return bond_evaluations_; }
+
+  std::vector<ensemble::Sample> samples_;  ///< all that are known, on every rank
+  std::vector<Task> tasks_;                ///< samples to do
+  std::vector<ensemble::Probability> probabilities_;
+  std::ofstream table_;
+  bool interrupted_ = false;
+  std::size_t earlier_ = 0;  ///< samples that an earlier run had done
+  double sample_s_ = 0;      ///< spent in samples by this rank
+  std::int64_t bond_evaluations_ = 0;
+};
+
+}  // namespace rhexis::app

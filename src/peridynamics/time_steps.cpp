@@ -1,0 +1,29 @@
+#include "peridynamics/time_steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "peridynamics/materials/pmb.hpp"
+
+namespace rhexis::peridynamics {
+
+TimeSteps time_steps(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
+  TimeSteps t;
+  t.stable = stable_time_step(lattice, families, Pmb::bond_constant(p.young_modulus, *p.horizon), p.density);
+  t.step = p.time_step.value_or(p.step_fraction * t.stable);
+  if (t.step > t.stable) {
+    throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +
+                         quantity(0.9995 * t.stable, "s", 3) + "; take less, or \"auto\" for " +
+                         quantity(p.step_fraction * t.stable, "s"),
+                     "time.step");
+  }
+  const double steps = p.end_time / t.step;
+  if (steps > 1e12) throw InputError("the run would take " + text(steps) + " steps", "time.end");
+  t.count = std::max(1L, static_cast<long>(std::ceil(steps - 1e-6)));
+  if (!p.time_step) t.step = p.end_time / static_cast<double>(t.count);
+  return t;
+}
+
+}  // namespace rhexis::peridynamics
