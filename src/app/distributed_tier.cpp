@@ -89,7 +89,8 @@ class DistributedTier : public NetworkTier {
   void take_slice_of_file() {
     const network::BoundedGraph whole = make_graph_network(c_, mechanics_.hydrostatic);
     hemodynamics::check_flow_problem(whole.graph, whole.conditions, solver_options(c_));
-    for (const std::string& name : c_.network.query) queried_.push_back(find_vessel(c_, whole.graph, name, "network.query"));
+    for (const std::string& name : c_.network.query)
+      queried_.push_back(find_vessel(c_, whole.graph, name, "network.query"));
     const auto share = [&](int r) {
       return whole.graph.vessels() * static_cast<std::size_t>(r) / static_cast<std::size_t>(comm_.size());
     };

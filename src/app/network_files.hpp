@@ -8,8 +8,8 @@
 
 namespace rhexis::app {
 
-/// generations.csv, histograms.csv, screening.csv, risk_histograms.csv, vessels.csv (what there is of them), network.xdmf and .h5, network.vtp.
-/// Collective. Throws RunError.
+/// generations.csv, histograms.csv, screening.csv, risk_histograms.csv, vessels.csv (what there is of them),
+/// network.xdmf and .h5, network.vtp. Collective. Throws RunError.
 void write_network(const Configuration& c, NetworkSolution& solution, const std::filesystem::path& directory,
                    parallel::Communicator comm);
 

@@ -12,7 +12,7 @@ struct RunOptions {
   std::filesystem::path directory;
   std::filesystem::path restart;  ///< checkpoint; empty: from the start
   bool quiet = false;
-  double started = 0;  ///< s, of the clock
+  double started = 0;                       ///< s, of the clock
   std::shared_ptr<Pictures> pictures = {};  ///< of the runs that this one is one of; null: it has its own
 };
 

@@ -16,7 +16,7 @@ Real lower_normal_quantile(Real p) {
            t;
   for (int i = 0; i < 3; ++i) {
     const Real below = std::erfc(-z / std::numbers::sqrt2_v<Real>) / 2;
-    const Real error = (below - p) * std::sqrt(2 * std::numbers::pi_v<Real>)*std::exp(z * z / 2);
+    const Real error = (below - p) * std::sqrt(2 * std::numbers::pi_v<Real>) * std::exp(z * z / 2);
     z -= error / (1 + z * error / 2);
   }
   return z;

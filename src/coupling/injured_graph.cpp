@@ -11,7 +11,7 @@ using network::Condition;
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 /// Of an occluded vessel: the graph stays connected.
-constexpr double left_of_conductance = 1e-9;
+constexpr double left_of_conductance = 1e-12;
 constexpr int most_rounds = 60;
 constexpr double tolerance = 1e-10;
 /// Resistance of a leak to begin with, times its strength, Pa^1/2: as if the pressure of a body drove it.

@@ -29,8 +29,8 @@ class InjuredGraph {
                                    ///< bleeding vessel's flow is that at its `from` end
     std::vector<double> leaks;     ///< m3/s, of every injury
   };
-  /// Leaks obey the orifice law; solved as resistances that are adjusted until they do, which halves the error
-  /// at least each time. Throws RunError as solve_flow does.
+  /// Leaks obey the orifice law; solved as resistances that are adjusted until they do, which halves the
+  /// error at least each time. Throws RunError as solve_flow does.
   Result solve(const hemodynamics::GraphSolverOptions& options);
 
   /// With the leaks of the last solution as constant resistances.

@@ -44,7 +44,8 @@ ParameterList declare(Parameters& p) {
        &p.outcome,
        "",
        "\"bleeding\"",
-       "What a ruptured vessel does from then on: it bleeds through the opening that it had at the end, or it "
+       "What a ruptured vessel does from then on: it bleeds through the opening that it had at the end, or "
+       "it "
        "is "
        "occluded (a clot, a clamp, a spasm) and the others carry its flow.",
        "",

@@ -12,7 +12,8 @@ ParameterList declare(WeaknessParameters& p) {
       {"weakness.vessels", &p.vessels, "", "[]",
        "Vessels with a weak wall: ids, or in a tree paths such as \"artery.0110\"; in a file its names.", ""},
       {"weakness.subtrees", &p.subtrees, "", "[]",
-       "Regions with weak walls: the path of a vessel of a tree, which is weak with all of its kind below it.",
+       "Regions with weak walls: the path of a vessel of a tree, which is weak with all of its kind below "
+       "it.",
        ""},
       {"weakness.strength", &p.strength, "1", "0.5",
        "Critical stretch of weak walls over that of the others.", "", Range::positive()},

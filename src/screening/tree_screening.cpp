@@ -43,8 +43,7 @@ struct TreeScreening::Context {
 
 class TreeScreening::Consumer : public hemodynamics::VesselConsumer {
  public:
-  explicit Consumer(const Context& context)
-      : c_(context), tally_(context.tree.generations(), context.top) {}
+  explicit Consumer(const Context& context) : c_(context), tally_(context.tree.generations(), context.top) {}
 
   void consume(const VesselBlock& b) override {
     for (const VesselKind kind : kinds) {
@@ -99,8 +98,7 @@ class TreeScreening::Consumer : public hemodynamics::VesselConsumer {
     }
     for (const auto& range : c_.variation.marked_in(kind, b.first_place, b.first_place + b.count)) {
       for (std::uint64_t place = range.first; place < range.past && !few; ++place)
-        risk_[place - b.first_place] =
-            risk_of(b, kind, place - b.first_place, c_.variation.of(kind, place));
+        risk_[place - b.first_place] = risk_of(b, kind, place - b.first_place, c_.variation.of(kind, place));
     }
     tally_.add(b.generation, kind, b.first_place, risk_, b.count);
   }
@@ -172,8 +170,8 @@ TreeScreening::TreeScreening(const network::TreePair& tree, const network::WallV
     const network::Wall& wall = context_->wall(kinds[k]);
     const double ratio = context_->ratio(kinds[k]);
     if (wall.rule != network::WallRule::radius) continue;
-    context_->thickness[k] =
-        network::IntervalTable([=](long double r) { return wall.relative_thickness(r * ratio); }, narrowest, widest);
+    context_->thickness[k] = network::IntervalTable(
+        [=](long double r) { return wall.relative_thickness(r * ratio); }, narrowest, widest);
   }
   for (int t = 0; t < parallel::thread_count(); ++t)
     consumers_.push_back(std::make_unique<Consumer>(*context_));

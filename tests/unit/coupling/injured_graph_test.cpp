@@ -41,8 +41,9 @@ TEST(InjuredGraph, OneLeakAsTheClosedForm) {
 
 TEST(InjuredGraph, SeveralLeaksObeyTheirLawsTogether) {
   const double strength[] = {2e-9, 3e-8, 5e-7};
-  InjuredGraph injured(diamond(), conductance, conditions,
-                       {{0, false, {strength[0], 0}}, {2, false, {strength[1], 900}}, {3, false, {strength[2], 0}}});
+  InjuredGraph injured(
+      diamond(), conductance, conditions,
+      {{0, false, {strength[0], 0}}, {2, false, {strength[1], 900}}, {3, false, {strength[2], 0}}});
   const auto result = injured.solve(tight);
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -115,8 +115,8 @@ TEST(Screening, RanksTheWeakVesselFirstWhereverItIs) {
   const network::TreeRules rules = walled(test::random_rules(k));
   for (int i = 0; i < 24; ++i) {
     // The hoop strain of the walls' rule varies twenty-fold over the tree, so a hundredth outdoes all.
-    const std::uint64_t id = network::draw(5, network::Stream::splits, static_cast<std::uint64_t>(i)) %
-                             TreePair::vessels_of(k);
+    const std::uint64_t id =
+        network::draw(5, network::Stream::splits, static_cast<std::uint64_t>(i)) % TreePair::vessels_of(k);
     network::WeaknessParameters weakness;
     weakness.strength = 0.01;
     weakness.vessels = {TreePair::path_of(id)};
