@@ -151,7 +151,8 @@ class NetworkPicture:
         positive = flow[flow > 0]  # neither 0 nor unknown
         if (kind == UNKNOWN).all() and len(positive) > 0:
             unit, name = flow_unit(positive.max())
-            steps, written = even_decades(positive.min() / unit, positive.max() / unit)
+            decades = 6 if width > 300 else 3  # so that their numbers do not touch
+            steps, written = even_decades(positive.min() / unit, positive.max() / unit, decades)
             low, high = math.log10(steps[0]), math.log10(steps[-1])
             table = colours(VIRIDIS[::-1], "RGB")
             table.SetRange(low, high)
@@ -182,7 +183,8 @@ class NetworkPicture:
         table.SetRange(ticks[0], ticks[-1])
         self._show(1, mesh.surface(pressure[mesh.vessel, mesh.at_end].astype(numpy.float32)), table)
         places = [((tick - ticks[0]) / (ticks[-1] - ticks[0]), f"{tick:g}") for tick in ticks]
-        self.sheet.colour_bar(left, y, width, table, "pressure with the wall intact / mmHg" if self.coupled else "pressure / mmHg", places)
+        name = "pressure (wall intact) / mmHg" if self.coupled else "pressure / mmHg"
+        self.sheet.colour_bar(left, y, width, table, name, places)
 
     def _write_title(self, network, drawn, time_s):
         shown, vessels = field_value(network, "shown") or drawn, field_value(network, "vessels")

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "app/console.hpp"
+#include "app/network_coupling.hpp"
 #include "app/stopwatch.hpp"
 #include "core/format.hpp"
 #include "peridynamics/body.hpp"
@@ -50,13 +52,9 @@ double body_bytes(const Configuration& c, const Lattice& lattice, const BondFami
   return state + bits + tables + observed;
 }
 
-}  // namespace
-
-void check(const Configuration& c, parallel::Communicator comm) {
-  if (c.model == "network") {
-    check_network(c, comm);
-    return;
-  }
+/// `say_more`: what else there is to say of the vessel.
+void check_wall(const Configuration& c, parallel::Communicator comm,
+                const std::function<void(Console&)>& say_more) {
   const Lattice lattice = peridynamics::make_lattice(c.vessel);
   const BondFamilies families = peridynamics::make_families(lattice);
   const bool periodic = peridynamics::end_condition(c.vessel) == peridynamics::EndCondition::axial_periodic;
@@ -68,6 +66,7 @@ void check(const Configuration& c, parallel::Communicator comm) {
   Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
+  if (say_more) say_more(console);
   console.item("spacing", quantity(lattice.spacing, "m") +
                               fmt::format(" ({:.1f} across the wall), {} between rows",
                                           (c.vessel.outer_radius - c.vessel.inner_radius) / lattice.spacing,
@@ -107,6 +106,23 @@ void check(const Configuration& c, parallel::Communicator comm) {
   console.item("time",
                fmt::format("about {} of solving on {} (measured now; output and pictures come on top)",
                            duration(step * static_cast<double>(c.steps)), processors));
+}
+
+}  // namespace
+
+void check(const Configuration& c, parallel::Communicator comm) {
+  if (c.model == "network") {
+    check_network(c, comm);
+  } else if (c.is_coupled()) {
+    // The wall is known when the network has been solved.
+    Configuration solved = c;
+    solved.network.statistics = false;
+    Console console(comm.is_root(), false);
+    const NetworkCoupling coupling(solved, comm, console);
+    check_wall(solved, comm, [&](Console& to) { coupling.say_header(to); });
+  } else {
+    check_wall(c, comm, {});
+  }
 }
 
 }  // namespace rhexis::app

@@ -187,6 +187,12 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
   for (const input::Entry& entry : document.entries) {
     const std::string section = input::section_of(entry.key);
     refuse(document.place(entry), "section [" + section + "]", section, has_section);
+    const bool of_network = network_knows(entry.key);
+    if (model == "coupled" && section != "vessel" && (of_network || vessel_knows(entry.key))) {
+      throw InputError(document.place(entry) + (of_network
+                                                    ? ": the network says this of a coupled vessel"
+                                                    : ": section [material] says this of a coupled network"));
+    }
     refuse(document.place(entry), "this key", entry.key, has_key);
   }
   ParameterList all = declare_scene(c);
@@ -275,7 +281,13 @@ void resolve_coupling(Configuration& c) {
   if (p.window && *p.window > c.vessel.end_time)
     throw InputError("longer than the run, time.end = " + quantity(c.vessel.end_time, "s"),
                      "coupling.window");
-  if (!p.window) p.window = c.vessel.end_time / 200;
+  if (p.mode == "two_way") {
+    const auto venting = std::ranges::find(c.resolved.values, "load.venting", &input::ResolvedValue::key);
+    if (c.vessel.venting != "none" && venting->origin != "default")
+      throw InputError("not with coupling.mode = \"two_way\", where the network says how the pressure falls",
+                       "load.venting");
+    c.vessel.venting = "none";
+  }
   if (p.compression_from && p.compression_to && *p.compression_from >= *p.compression_to)
     throw InputError("must be above body.compression_from", "body.compression_to");
   c.vessel.blood_density = c.hemodynamics.density;
@@ -300,7 +312,14 @@ void resolve_wall(Configuration& c) {
   try {
     resolve_vessel(c);
   } catch (const InputError& error) {
-    throw input::located(error, c.resolved);
+    if (!c.is_coupled() || !network_knows(error.key)) throw input::located(error, c.resolved);
+    const peridynamics::Parameters& v = c.vessel;
+    throw input::located(
+        InputError(std::string(error.what()) + " (lumen radius " + quantity(v.inner_radius, "m") + ", wall " +
+                       quantity(v.outer_radius - v.inner_radius, "m") + ", length " +
+                       quantity(v.length, "m") + ")",
+                   "coupling.vessel"),
+        c.resolved);
   }
 }
 

@@ -28,6 +28,7 @@ class CascadeRun : private RunBase {
 
   Ending run() {
     const Configuration first = c_;
+    say_title(console_, c_);
     std::optional<NetworkCoupling> next;
     next.emplace(c_, comm_, console_);
     open_directory(output::EarlierResults::remove);
@@ -122,11 +123,21 @@ class CascadeRun : private RunBase {
   /// Of the record: one row for each event.
   void write_table() {
     parallel::on_root<RunError>(comm_, [&] {
-      const auto columns = {"event",     "time_s",          "name",
-                            "kind",      "generation",      "risk",
-                            "ruptured",  "rupture_onset_s", "net_pressure_Pa",
-                            "opening_m2", "leak_m3_s",      "inflow_before_m3_s",
-                            "inflow_after_m3_s", "next_vessel", "next_risk"};
+      const auto columns = {"event",
+                            "time_s",
+                            "name",
+                            "kind",
+                            "generation",
+                            "risk",
+                            "ruptured",
+                            "rupture_onset_s",
+                            "net_pressure_Pa",
+                            "opening_m2",
+                            "leak_m3_s",
+                            "inflow_before_m3_s",
+                            "inflow_after_m3_s",
+                            "next_vessel",
+                            "next_risk"};
       std::string table = fmt::format("{}\n", fmt::join(columns, ","));
       for (const auto& event : results_.cascade) {
         std::vector<std::string> row;
@@ -170,6 +181,7 @@ class CascadeRun : private RunBase {
 Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm) {
   if (configuration.coupling.events > 0) return CascadeRun(std::move(configuration), options, comm).run();
   Console console(comm.is_root(), options.quiet);
+  say_title(console, configuration);
   NetworkCoupling coupling(configuration, comm, console);
   return VesselRun(std::move(configuration), options, comm, &coupling).run();
 }

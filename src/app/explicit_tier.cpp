@@ -8,9 +8,9 @@
 #include "app/graph_network.hpp"
 #include "app/network_tier.hpp"
 #include "app/stopwatch.hpp"
-#include "coupling/injured_graph.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "coupling/injured_graph.hpp"
 #include "hemodynamics/graph_flow.hpp"
 #include "hemodynamics/haematocrit.hpp"
 #include "network/tree_pair.hpp"
@@ -186,6 +186,12 @@ class ExplicitTier : public NetworkTier {
     if (network_.graph.x.empty()) {
       s.warnings.push_back(no_coordinates);
       return;
+    }
+    const Graph& g = network_.graph;
+    s.extent.emplace();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::ranges::minmax(k == 0 ? g.x : k == 1 ? g.y : g.z);
+      (*s.extent)[k] = {low, high};
     }
     const auto shown = widest_vessels(network_.graph, most_shown(c_));
     s.lines = hemodynamics::VesselLines::of_graph(network_.graph, flow, shown, haematocrit_, mechanics_);

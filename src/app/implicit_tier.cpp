@@ -161,6 +161,10 @@ class ImplicitTier : public NetworkTier {
     const auto flows = flow.at(numbers);
     if (comm_.is_root()) s.lines = hemodynamics::VesselLines::of_tree(flow, places, flows, mechanics_);
     s.shown = 2 * static_cast<std::int64_t>(places.size());
+    // To the sides no more is known than that no vessel is farther away than the heart from the midplane.
+    const double reach = -tree_.inlet()[0];
+    s.extent.emplace();
+    s.extent->fill({-reach, reach});
   }
 
   const Configuration& c_;

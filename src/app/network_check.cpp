@@ -44,8 +44,7 @@ double seconds_per_vessel(const Configuration& c, parallel::Communicator comm) {
 }  // namespace
 
 void check_network(const Configuration& c, parallel::Communicator comm) {
-  const auto tier = make_tier(c, comm);
-  tier->prepare();
+  const auto tier = prepared_tier(c, comm);
   Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
@@ -55,7 +54,7 @@ void check_network(const Configuration& c, parallel::Communicator comm) {
   const auto vessels = static_cast<double>(tree.vessels());
   const network::TreeVessel last = tree.vessel(tree.vessels() - 2);
   console.item(
-      "first artery",
+      "first",
       fmt::format("artery of radius {}, length {}, wall {}", quantity(tree.vessel(0).radius, "m"),
                   quantity(tree.vessel(0).length, "m"), quantity(tree.vessel(0).wall_thickness, "m")));
   console.item("last", fmt::format("artery of radius {}, length {}, wall {}", quantity(last.radius, "m"),

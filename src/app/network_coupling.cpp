@@ -27,8 +27,7 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
     : c_(c), comm_(comm) {
   {
     const Stopwatch watch(network_s_);
-    tier_ = make_tier(c_, comm_);
-    tier_->prepare();
+    tier_ = prepared_tier(c_, comm_);
     console.item("network", tier_->description());
     solution_ = tier_->solve([&](const std::string& text) { console.line(text); });
   }
@@ -50,8 +49,9 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
         if (p < 0) {
           throw InputError(
               "vessel '" + chosen_.name + "' has a net pressure of " + mmhg(p) +
-              " (Eq. 7): its collapse is not modelled; raise the pressures or lower what acts from "
-              "outside");
+                  " (Eq. 7): its collapse is not modelled; raise the pressures or lower what acts from "
+                  "outside",
+              "coupling.vessel");
         }
       }
     });
@@ -66,16 +66,15 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
   data_ = {values[0], values[1], values[2]};
   load_.pressure = {values[3], values[4], values[5]};
   c_.vessel.critical_stretch *= values[6];
-  least_pressure_ = load_.pressure[1];
   try {
     piece_ = coupling::hand_over(data_, c_.coupling.resolution == "paper", c_.vessel);
   } catch (const InputError& error) {
     throw input::located(error, c_.resolved);
   }
   c_.vessel.pressure = pressure();
-  if (two_way()) c_.vessel.venting = "none";
   resolve_wall(c_);
-  const double steps = *c_.coupling.window / c_.time_step;
+  const double steps =
+      c_.coupling.window.value_or(std::max(c_.vessel.end_time / 200, c_.time_step)) / c_.time_step;
   if (two_way() && steps < 1) {
     throw input::located(
         InputError("shorter than a time step, " + quantity(c_.time_step, "s"), "coupling.window"),
@@ -118,14 +117,22 @@ void NetworkCoupling::choose_places() {
   const hemodynamics::Hydrostatic weight = mechanics_of(c_).hydrostatic;
   if (ranged && !chosen_.start)
     throw InputError("needs coordinates of the network, and it has none", "body.compression_from");
-  if (ranged && solution_.lines.count() > 0) {
-    const FieldView x = solution_.lines.positions();
-    const double* axis = x.component[static_cast<std::size_t>(compression.axis)];
-    const auto [low, high] = std::minmax_element(axis, axis + x.count);
-    if (compression.to < *low || compression.from > *high) {
+  if (ranged && solution_.extent) {
+    const auto [low, high] = (*solution_.extent)[static_cast<std::size_t>(compression.axis)];
+    if (compression.to < low || compression.from > high) {
       throw InputError(fmt::format("the compression lies outside the body, which reaches from {} m to {} m",
-                                   text(*low), text(*high)),
-                       "body.compression_from");
+                                   text(low), text(high)),
+                       compression.to < low ? "body.compression_to" : "body.compression_from");
+    }
+  }
+  if (ranged) {
+    const auto axis = static_cast<std::size_t>(compression.axis);
+    const auto [low, high] = std::minmax((*chosen_.start)[axis], (*chosen_.end)[axis]);
+    const auto within = [&](double edge) { return edge > low && edge < high; };
+    if (within(compression.from) || within(compression.to)) {
+      c_.warnings.push_back(
+          "an edge of the compression lies within the vessel, whose load is taken at its two ends "
+          "and its middle, and straight between them");
     }
   }
   for (std::size_t i = 0; i < 3; ++i) {
@@ -174,8 +181,7 @@ void NetworkCoupling::exchange(const Wall& wall) {
     // full pressure, with an orifice that lets as much of the flow there out as the real one does now.
     coupling::Orifice hole = orifice(wall.opening);
     hole.strength = wall.schedule > 0 ? hole.strength / std::sqrt(wall.schedule) : 0;
-    leaked_ += leak_ * (wall.time_s - last_time_);
-    last_time_ = wall.time_s;
+    end(wall.time_s);
     const coupling::VesselState now = coupling::bleed(*vessel_, wall.resistance_factor, hole);
     leak_ = wall.schedule * now.leak;
     find_load({now.pressure_from, now.pressure_middle, now.pressure_to});
@@ -194,7 +200,12 @@ void NetworkCoupling::exchange(const Wall& wall) {
   comm_.all_reduce(values, parallel::Reduce::sum);
   load_.pressure = {values[0], values[1], values[2]};
   leak_ = values[3];
-  least_pressure_ = std::min(least_pressure_, load_.pressure[1]);
+  schedule_ = wall.schedule;
+}
+
+void NetworkCoupling::end(double time_s) {
+  leaked_ += leak_ * (time_s - last_time_);
+  last_time_ = time_s;
 }
 
 LineSource& NetworkCoupling::lines() {
@@ -228,14 +239,13 @@ nlohmann::ordered_json NetworkCoupling::results() const {
                               {"exchange_s", exchange_s_},
                               {"windows", nullptr},
                               {"net_pressure_at_end_Pa", nullptr},
-                              {"least_net_pressure_Pa", nullptr},
                               {"leak_m3_s", nullptr},
                               {"leaked_m3", nullptr},
                               {"max_imbalance", nullptr}};
   if (two_way()) {
     json["windows"] = windows_;
-    json["net_pressure_at_end_Pa"] = load_.pressure;
-    json["least_net_pressure_Pa"] = least_pressure_;
+    auto& at_end = json["net_pressure_at_end_Pa"] = nlohmann::ordered_json::array();
+    for (const double p : load_.pressure) at_end.push_back(schedule_ * p);
     json["leak_m3_s"] = leak_;
     json["leaked_m3"] = leaked_;
     json["max_imbalance"] = worst_imbalance_;
@@ -269,7 +279,8 @@ void NetworkCoupling::say_summary(Console& console) const {
     console.item(
         "bleeding",
         fmt::format("{:.3g} mL/min at the end, {:.3g} uL in all; net pressure in the middle from {} to {}",
-                    leak_ * 6e7, leaked_ * 1e9, mmhg(first_load_.pressure[1]), mmhg(load_.pressure[1])));
+                    leak_ * 6e7, leaked_ * 1e9, mmhg(first_load_.pressure[1]),
+                    mmhg(schedule_ * load_.pressure[1])));
     console.item("conserved", fmt::format("blood to {:.1e} of the inflow at worst, {} exchanges",
                                           worst_imbalance_, windows_));
   }

@@ -26,7 +26,7 @@ class NetworkCoupling {
   /// The network has been solved, but no vessel's risk is above the cascade's limit: nothing to simulate.
   bool at_rest() const { return at_rest_; }
   const QueriedVessel& vessel() const { return chosen_; }
-  double risk() const { return risk_; }      ///< of that vessel (screening/screening.hpp)
+  double risk() const { return risk_; }               ///< of that vessel (screening/screening.hpp)
   double inflow() const { return solution_.inflow; }  ///< m3/s, of the network before the vessel ruptures
   const std::vector<double>& leaks() const { return solution_.leaks; }
   /// The vessel's opening as seen from the network, area in m2.
@@ -53,6 +53,8 @@ class NetworkCoupling {
   };
   /// Solves the network anew around the vessel. Collective.
   void exchange(const Wall& wall);
+  /// Counts what leaks until then.
+  void end(double time_s);
   double leak() const { return leak_; }  ///< m3/s, by the last exchange
 
   /// Of a cascade, for the pictures.
@@ -86,7 +88,7 @@ class NetworkCoupling {
   std::size_t event_ = 0;
   long steps_per_window_ = 1, windows_ = 0;
   double leak_ = 0, leaked_ = 0, last_time_ = 0;  ///< m3/s, m3, s
-  double worst_imbalance_ = 0, least_pressure_ = 0;
+  double worst_imbalance_ = 0, schedule_ = 1;
   double network_s_ = 0, exchange_s_ = 0;
   std::filesystem::path table_path_;
   std::ofstream table_;

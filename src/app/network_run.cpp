@@ -14,8 +14,7 @@ NetworkRun::NetworkRun(Configuration configuration, RunOptions options, parallel
 }
 
 Ending NetworkRun::run() {
-  tier_ = make_tier(c_, comm_);
-  tier_->prepare();
+  tier_ = prepared_tier(c_, comm_);
   try {
     open_directory(output::EarlierResults::remove);
     open_record();

@@ -53,6 +53,8 @@ struct NetworkSolution {
   std::vector<QueriedVessel> at_risk;  ///< [screening->top]
   std::vector<double> leaks;           ///< m3/s, of the injuries that earlier events left
   std::vector<VesselRow> table;
+  /// Along each axis (m), of all vessels; none without coordinates.
+  std::optional<std::array<std::pair<double, double>, 3>> extent;
   hemodynamics::VesselLines lines;  ///< to store and draw: this rank's
   std::int64_t shown = 0;           ///< of all ranks
   std::vector<std::string> warnings;
@@ -82,8 +84,8 @@ class NetworkTier {
 std::unique_ptr<NetworkTier> make_implicit_tier(const Configuration& c, parallel::Communicator comm);
 std::unique_ptr<NetworkTier> make_explicit_tier(const Configuration& c, parallel::Communicator comm);
 std::unique_ptr<NetworkTier> make_distributed_tier(const Configuration& c, parallel::Communicator comm);
-/// By network.tier.
-std::unique_ptr<NetworkTier> make_tier(const Configuration& c, parallel::Communicator comm);
+/// By network.tier, and prepared: throws InputError, complete with place. Collective.
+std::unique_ptr<NetworkTier> prepared_tier(const Configuration& c, parallel::Communicator comm);
 
 /// Walls of a tree are marked; of a file, the reader does that.
 hemodynamics::VesselMechanics mechanics_of(const Configuration& c);

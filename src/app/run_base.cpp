@@ -77,11 +77,18 @@ output::Performance RunBase::performance() const {
   return p;
 }
 
+void say_title(Console& console, const Configuration& c) {
+  console.line(fmt::format("Rhexis {} ({}): {}", version(), commit(), c.title.empty() ? c.file : c.title));
+  console.item("input", c.file);
+}
+
 void RunBase::say_input() {
-  console_.line(
-      fmt::format("Rhexis {} ({}): {}", version(), commit(), c_.title.empty() ? c_.file : c_.title));
+  say_title(console_, c_);
+  say_warnings();
+}
+
+void RunBase::say_warnings() {
   for (const std::string& warning : c_.warnings) console_.warning(warning);
-  console_.item("input", c_.file);
 }
 
 void RunBase::say_surroundings() {

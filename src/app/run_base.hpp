@@ -16,6 +16,9 @@
 
 namespace rhexis::app {
 
+/// What is run, and from what file: the first that a run says.
+void say_title(Console& console, const Configuration& c);
+
 class RunBase {
  protected:
   struct Spent {
@@ -47,6 +50,7 @@ class RunBase {
 
   /// First lines of the header: program, title, warnings, input.
   void say_input();
+  void say_warnings();
   /// Last lines of the header: ranks and threads, who draws, results.
   void say_surroundings();
   /// Last lines of the summary.
@@ -62,7 +66,7 @@ class RunBase {
   std::shared_ptr<Pictures> pictures_;
 
  private:
-  double started_;        ///< s, of the clock
+  double started_;  ///< s, of the clock
 };
 
 }  // namespace rhexis::app

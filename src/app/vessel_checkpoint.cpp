@@ -16,11 +16,19 @@ output::WordBlock word_block(const peridynamics::Body& body) {
   return {l.rows, l.words, l.first_row, l.row_count, l.first_word, l.word_count};
 }
 
-/// The keys that make a body what it is, with their values: what a checkpoint can only be restored to.
-std::string body_description(const nlohmann::ordered_json& input) {
+/// The keys that make a body what it is, with their values: what a checkpoint can only be restored to. Where
+/// a network says what the vessel is like, that.
+std::string body_description(const Configuration& c) {
   nlohmann::ordered_json values;
   for (const char* section : {"vessel", "material", "discretisation", "boundary"}) {
-    for (const auto& [key, entry] : input.at(section).items()) values[section][key] = entry.at("value");
+    if (!c.record.contains(section)) continue;
+    for (const auto& [key, entry] : c.record.at(section).items()) values[section][key] = entry.at("value");
+  }
+  if (c.is_coupled()) {
+    values["vessel"] = {{"inner_radius", c.vessel.inner_radius},
+                        {"outer_radius", c.vessel.outer_radius},
+                        {"length", c.vessel.length},
+                        {"critical_stretch", c.vessel.critical_stretch}};
   }
   return values.dump();
 }
@@ -35,12 +43,13 @@ std::optional<double> present(double stored) {
 }  // namespace
 
 void VesselRun::write_checkpoint(long step) {
+  if (coupling_ != nullptr && coupling_->two_way()) return;  // asked for by an interrupt
   const Stopwatch watch(spent_.output);
   const peridynamics::Body::Saved saved = body_->save();
   const auto path = options_.directory / "checkpoints" / fmt::format("step_{:06d}.h5", step);
   output::CheckpointWriter file(path, comm_);
   file.write("step", std::int64_t{step});
-  file.write("body", body_description(c_.record));
+  file.write("body", body_description(c_));
   file.write("time_step", c_.time_step);
   file.write("frame_phase", std::int64_t{saved.frame_phase});
   file.write("first_kick_pending", std::int64_t{saved.first_kick_pending});
@@ -75,9 +84,9 @@ void VesselRun::read_checkpoint() {
   }
   std::string body;
   file.read("body", body);
-  if (body != body_description(c_.record)) {
+  if (body != body_description(c_)) {
     throw InputError(fmt::format("{}: the checkpoint is of another body: {}; this run has {}",
-                                 options_.restart.string(), body, body_description(c_.record)));
+                                 options_.restart.string(), body, body_description(c_)));
   }
   file.read("time_step", time_step);
   if (time_step != c_.time_step) {

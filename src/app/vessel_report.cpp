@@ -8,7 +8,9 @@ namespace rhexis::app {
 
 void VesselRun::say_header() {
   const peridynamics::Parameters& v = c_.vessel;
-  say_input();
+  // A coupled run has said its title before the network was solved.
+  if (coupling_ == nullptr) say_title(console_, c_);
+  say_warnings();
   console_.item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
                                       quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
                                       quantity(v.length, "m"), v.ends));

@@ -27,11 +27,10 @@ VesselRun::VesselRun(Configuration configuration, RunOptions options, parallel::
                      NetworkCoupling* coupling)
     : RunBase(std::move(configuration), std::move(options), comm), coupling_(coupling) {
   if (coupling_ == nullptr || !coupling_->two_way()) return;
-  if (!options_.restart.empty() || c_.output.checkpoint_every > 0) {
-    throw InputError(
-        "checkpoints do not hold the state of two-way coupling yet: no --restart and "
-        "output.checkpoint_every = 0");
-  }
+  const std::string reason = "checkpoints do not hold the state of two-way coupling";
+  if (!options_.restart.empty()) throw InputError("--restart: " + reason);
+  if (c_.output.checkpoint_every > 0)
+    throw input::located(InputError(reason + "; 0 is allowed", "output.checkpoint_every"), c_.resolved);
 }
 
 VesselRun::~VesselRun() = default;
@@ -48,6 +47,7 @@ Ending VesselRun::run() {
     start_insitu();
     say_header();
     time_loop();
+    if (coupling_ != nullptr) coupling_->end(time_at(step_));
     finish_insitu();
     make_movie();
   } catch (const RunError& error) {

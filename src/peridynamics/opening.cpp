@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 
@@ -24,6 +25,11 @@ double widest_gap(const CrossSection& section) {
   double widest = angles.front() + 2 * std::numbers::pi - angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i) widest = std::max(widest, angles[i] - angles[i - 1]);
   return widest;
+}
+
+/// Angle around the axis as a share of a full turn.
+double turn(double x, double y) {
+  return std::atan2(y, x) / (2 * std::numbers::pi) + 0.5;
 }
 
 /// Lengths of the runs of clear bits, in bins; the bins close to a circle.
@@ -54,7 +60,14 @@ OpeningGauge::OpeningGauge(const Lattice& lattice, const Body& body, parallel::C
       row_spacing_(lattice.row_spacing),
       radius_quantum_(std::ldexp(lattice.spacing, -20)),
       widest_intact_gap_(widest_gap(lattice.section)),
-      bins_(bins_for(widest_intact_gap_)) {}
+      bins_(bins_for(widest_intact_gap_)),
+      // Two widest gaps wide, so that none is empty.
+      sectors_(std::max<std::size_t>(1, static_cast<std::size_t>(std::numbers::pi / widest_intact_gap_))) {
+  for (std::size_t c = 0; c < lattice.section.size(); ++c)
+    sector_of_.push_back(
+        std::min(sectors_ - 1, static_cast<std::size_t>(turn(lattice.section.x[c], lattice.section.y[c]) *
+                                                        static_cast<double>(sectors_))));
+}
 
 double OpeningGauge::area() const {
   const PointLayout& layout = body_->layout();
@@ -63,21 +76,30 @@ double OpeningGauge::area() const {
   const double bin_width = 2 * std::numbers::pi / static_cast<double>(bins_);
   std::vector<std::uint64_t> occupied(static_cast<std::size_t>(layout.rows) * words);
   std::vector<std::int64_t> radii(static_cast<std::size_t>(layout.rows));  // sums, in quanta
+  std::vector<double> lowest(radii.size() * sectors_, std::numeric_limits<double>::max());
+  std::vector<double> highest(lowest.size(), std::numeric_limits<double>::lowest());
   std::size_t i = 0;
   for (std::int64_t c = 0; c < layout.column_count; ++c) {
     for (std::int64_t r = 0; r < layout.row_count; ++r, ++i) {
       const auto x = body_->reference_position(c, r);
       const double px = x[0] + u[0][i], py = x[1] + u[1][i];
       const auto row = static_cast<std::size_t>(layout.first_row + r);
-      const double turn = std::atan2(py, px) / (2 * std::numbers::pi) + 0.5;
-      const auto bin = std::min(bins_ - 1, static_cast<std::size_t>(turn * static_cast<double>(bins_)));
+      const auto bin =
+          std::min(bins_ - 1, static_cast<std::size_t>(turn(px, py) * static_cast<double>(bins_)));
       occupied[row * words + bin / 64] |= std::uint64_t{1} << (bin % 64);
       radii[row] += std::llround(std::min(std::hypot(px, py) / radius_quantum_, 0x1p40));
+      const std::size_t place =
+          row * sectors_ + sector_of_[static_cast<std::size_t>(layout.first_column + c)];
+      lowest[place] = std::min(lowest[place], x[2] + u[2][i]);
+      highest[place] = std::max(highest[place], x[2] + u[2][i]);
     }
   }
   comm_.all_reduce(occupied, parallel::Reduce::bit_or);
   comm_.all_reduce(radii, parallel::Reduce::sum);
+  comm_.all_reduce(lowest, parallel::Reduce::min);
+  comm_.all_reduce(highest, parallel::Reduce::max);
 
+  const double sector_width = 2 * std::numbers::pi / static_cast<double>(sectors_);
   double area = 0;
   for (std::size_t row = 0; row < radii.size(); ++row) {
     const double radius =
@@ -86,6 +108,10 @@ double OpeningGauge::area() const {
       // A run of n empty bins lies between particles that are n to n + 2 bins apart.
       const double gap = static_cast<double>(run + 1) * bin_width;
       if (gap > 1.5 * widest_intact_gap_) area += (gap - widest_intact_gap_) * radius * row_spacing_;
+    }
+    for (std::size_t sector = 0; sector < sectors_ && row > 0; ++sector) {
+      const double gap = lowest[row * sectors_ + sector] - highest[(row - 1) * sectors_ + sector];
+      if (gap > 1.5 * row_spacing_) area += (gap - row_spacing_) * radius * sector_width;
     }
   }
   return area;

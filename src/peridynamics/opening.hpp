@@ -15,7 +15,12 @@ namespace rhexis::peridynamics {
 /// particle is a gap. Uniform widening keeps angles, so an intact wall has exactly the gaps of its reference
 /// state; a gap counts once it is half as wide again as the widest of those, and its excess over that width
 /// times the row's mean radius times the row spacing is its area. Exact to about one spacing of width per
-/// row. Angles are sorted into bins that ranks merge by a bitwise or, so the result does not depend on them.
+/// row. A tear across the axis leaves no such gap, but rows that lie apart: in each sector of the wall, the
+/// distance between one row's farthest particle and the next row's nearest counts in the same way, once it is
+/// half as wide again as the row spacing.
+///
+/// Angles are sorted into bins that ranks merge by a bitwise or, and rows have a least and a greatest height,
+/// so the result does not depend on ranks.
 class OpeningGauge {
  public:
   OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);
@@ -27,8 +32,10 @@ class OpeningGauge {
   const Body* body_;
   parallel::Communicator comm_;
   double row_spacing_, radius_quantum_;
-  double widest_intact_gap_;  ///< rad
-  std::size_t bins_;          ///< of angle, per row
+  double widest_intact_gap_;            ///< rad
+  std::size_t bins_;                    ///< of angle, per row
+  std::size_t sectors_;                 ///< of the cross-section, each with columns in it
+  std::vector<std::size_t> sector_of_;  ///< [columns]
 };
 
 /// How wide the lumen is, measured on the innermost particles of each axial row.

@@ -146,6 +146,32 @@ TEST_P(Opening, KnownSlitIsMeasured) {
   }
 }
 
+TEST_P(Opening, KnownTearAcrossTheAxisIsMeasured) {
+  // Above its middle, all of the wall or the half of it at positive x is moved up.
+  Parameters p = test::paper_vessel(3e-3);
+  p.cross_section = GetParam();
+  BodySetup setup = test::setup_of(p, 1e-7);
+  const Lattice lattice = setup.lattice;
+  const auto body = make_body(std::move(setup), test::self());
+  const OpeningGauge gauge(lattice, *body, test::self());
+  double mean_radius = 0;
+  for (std::size_t c = 0; c < lattice.section.size(); ++c)
+    mean_radius +=
+        std::hypot(lattice.section.x[c], lattice.section.y[c]) / static_cast<double>(lattice.section.size());
+  for (const double gap : {2e-4, 1e-3}) {
+    for (const double share : {1.0, 0.5}) {
+      const auto torn = [&](const std::array<double, 3>& x) -> std::array<double, 3> {
+        const bool moves = x[2] > 1.5e-3 && (share == 1 || x[0] > 0);
+        return {0, 0, moves ? gap : 0.0};
+      };
+      body->set_state(test::sample(*body, torn), test::sample(*body, test::nothing));
+      const double exact = 2 * std::numbers::pi * mean_radius * share * gap;
+      // Two sectors hold the edges of the half.
+      EXPECT_NEAR(gauge.area(), exact, share == 1 ? 1e-9 * exact : 4 * lattice.spacing * gap) << gap;
+    }
+  }
+}
+
 TEST(Venting, ClosedForms) {
   EXPECT_EQ(venting_factor(0, 1e-6), 1);
   EXPECT_EQ(venting_factor(1e-6, 1e-6), 0.5);
