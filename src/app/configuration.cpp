@@ -186,12 +186,10 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
   for (const input::Entry& entry : document.entries) {
     const std::string section = input::section_of(entry.key);
     refuse(document.place(entry), "section [" + section + "]", section, has_section);
-    const bool of_network = network_knows(entry.key);
-    if (model == "coupled" && section != "vessel" && (of_network || vessel_knows(entry.key))) {
-      throw InputError(document.place(entry) + (of_network
-                                                    ? ": the network says this of a coupled vessel"
-                                                    : ": section [material] says this of a coupled network"));
-    }
+    if (model == "coupled" && network_knows(entry.key))
+      throw InputError(document.place(entry) + ": the network says this of a coupled vessel");
+    if (model == "coupled" && vessel_knows(entry.key))
+      throw InputError(document.place(entry) + ": section [material] says this of a coupled network");
     refuse(document.place(entry), "this key", entry.key, has_key);
   }
   ParameterList all = declare_scene(c);
