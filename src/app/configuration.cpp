@@ -83,9 +83,8 @@ ParameterList declare_scene(Configuration& c) {
            "",
            "\"vessel\"",
            "What is simulated: the rupture of one vessel's wall; the flow in a network of vessels; both: the "
-           "rupture of a vessel of a network; or how probably a vessel ruptures, from many walls whose "
-           "properties "
-           "scatter.",
+           "rupture of a vessel of a network; or how probably a vessel ruptures, from many walls "
+           "whose properties scatter.",
            "Sec. 3.3",
            {},
            {"vessel", "network", "coupled", "ensemble"}}};
