@@ -31,15 +31,15 @@ class CascadeRun : private RunBase {
     say_title(console_, c_);
     std::optional<NetworkCoupling> next;
     next.emplace(c_, comm_, console_);
-    open_directory(output::EarlierResults::remove);
-    open_record();
-    results_.cascade = nlohmann::ordered_json::array();
-    Ending ending = Ending::completed;
-    try {
+    const Ending ending = recorded([&] {
+      open_directory(output::EarlierResults::remove);
+      open_record();
       start_insitu();
-      while (!next->at_rest() && ending == Ending::completed &&
+      results_.cascade = nlohmann::ordered_json::array();
+      Ending last = Ending::completed;
+      while (!next->at_rest() && last == Ending::completed &&
              static_cast<std::int64_t>(results_.cascade.size()) < c_.coupling.events) {
-        ending = simulate(*next);
+        last = simulate(*next);
         const Aftermath aftermath = c_.aftermath;
         c_ = first;
         c_.aftermath = aftermath;
@@ -54,16 +54,11 @@ class CascadeRun : private RunBase {
       next->write(options_.directory);
       finish_insitu();
       make_movie();
-    } catch (const RunError& error) {
-      note_failure(error.what());
-      throw;
-    }
-    if (ending == Ending::interrupted) {
-      record_->fail("interrupted", results_, performance());
-    } else {
-      record_->complete(results_, performance());
-    }
-    say_summary(next->at_rest());
+      return last == Ending::interrupted;
+    });
+    say_summary(ending == Ending::interrupted ? "interrupted"
+                : next->at_rest() ? fmt::format("no vessel's risk is above {}", text(c_.coupling.risk_limit))
+                                  : "after cascade.events");
     return ending;
   }
 
@@ -153,7 +148,7 @@ class CascadeRun : private RunBase {
     });
   }
 
-  void say_summary(bool at_rest) {
+  void say_summary(const std::string& why_ended) {
     console_.line("Cascade:");
     if (comm_.is_root()) {
       for (const auto& event : results_.cascade) {
@@ -168,8 +163,7 @@ class CascadeRun : private RunBase {
                                  : std::string("held")));
       }
     }
-    console_.item("ended", at_rest ? fmt::format("no vessel's risk is above {}", text(c_.coupling.risk_limit))
-                                   : "after cascade.events");
+    console_.item("ended", why_ended);
     say_cost(performance());
   }
 

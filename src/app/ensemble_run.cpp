@@ -99,22 +99,15 @@ EnsembleRun::EnsembleRun(Configuration configuration, RunOptions options, parall
 Ending EnsembleRun::run() {
   read_earlier();
   plan();
-  try {
+  const Ending ending = recorded([&] {
     open_results();
     say_header();
     run_samples();
     finish();
-  } catch (const RunError& error) {
-    note_failure(error.what());
-    throw;
-  }
-  if (interrupted_) {
-    record_->fail("interrupted", results_, performance());
-  } else {
-    record_->complete(results_, performance());
-  }
+    return interrupted_;
+  });
   say_summary();
-  return interrupted_ ? Ending::interrupted : Ending::completed;
+  return ending;
 }
 
 /// The samples that an earlier run left in the folder.

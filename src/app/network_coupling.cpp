@@ -127,8 +127,8 @@ void NetworkCoupling::choose_places() {
   }
   if (ranged) {
     const auto axis = static_cast<std::size_t>(compression.axis);
-    const auto [low, high] = std::minmax((*chosen_.start)[axis], (*chosen_.end)[axis]);
-    const auto within = [&](double edge) { return edge > low && edge < high; };
+    const std::pair<double, double> ends = std::minmax((*chosen_.start)[axis], (*chosen_.end)[axis]);
+    const auto within = [&](double edge) { return edge > ends.first && edge < ends.second; };
     if (within(compression.from) || within(compression.to)) {
       c_.warnings.push_back(
           "an edge of the compression lies within the vessel, whose load is taken at its two ends "

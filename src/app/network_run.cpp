@@ -15,7 +15,7 @@ NetworkRun::NetworkRun(Configuration configuration, RunOptions options, parallel
 
 Ending NetworkRun::run() {
   tier_ = prepared_tier(c_, comm_);
-  try {
+  const Ending ending = recorded([&] {
     open_directory(output::EarlierResults::remove);
     open_record();
     start_insitu();
@@ -26,13 +26,10 @@ Ending NetworkRun::run() {
       write_network(c_, solution_, options_.directory, comm_);
     }
     draw();
-  } catch (const RunError& error) {
-    note_failure(error.what());
-    throw;
-  }
-  record_->complete(results_, performance());
+    return false;
+  });
   say_summary();
-  return Ending::completed;
+  return ending;
 }
 
 void NetworkRun::solve() {

@@ -26,6 +26,27 @@ void RunBase::open_record() {
   record_.emplace(options_.directory / "run.json", version(), commit(), c_.record, comm_);
 }
 
+Ending RunBase::recorded(const std::function<bool()>& work) {
+  bool interrupted = false;
+  try {
+    interrupted = work();
+  } catch (const InputError& error) {
+    if (!record_) throw;
+    note_failure(error.what());
+    throw RunError(error.what());
+  } catch (const RunError& error) {
+    note_failure(error.what());
+    throw;
+  }
+  if (interrupted) {
+    record_->fail("interrupted", results_, performance());
+  } else {
+    record_->complete(results_, performance());
+  }
+  return interrupted ? Ending::interrupted : Ending::completed;
+}
+
+/// A disk that is full for this too must not hide the reason.
 void RunBase::note_failure(const std::string& reason) {
   if (!record_) return;
   try {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,8 +37,9 @@ class RunBase {
   /// Makes the folder of results ready; `open_record` begins run.json in it.
   void open_directory(output::EarlierResults earlier);
   void open_record();
-  /// Tells run.json why the run failed; a disk that is full for this too must not hide the reason.
-  void note_failure(const std::string& reason);
+  /// Does `work`, which returns whether an interrupt ended it, and tells run.json how it ended. What is found
+  /// to be wrong with the input once run.json has begun is a failure of the run.
+  Ending recorded(const std::function<bool()>& work);
   /// Starts ParaView, or settles why there will be no pictures. Collective. Throws RunError for a bad script.
   void start_insitu();
   /// Ends ParaView, unless other runs still need it.
@@ -66,6 +68,8 @@ class RunBase {
   std::shared_ptr<Pictures> pictures_;
 
  private:
+  void note_failure(const std::string& reason);
+
   double started_;  ///< s, of the clock
 };
 

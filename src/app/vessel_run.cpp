@@ -42,7 +42,7 @@ double VesselRun::pressure_at(long step) const {
 Ending VesselRun::run() {
   build();
   if (!options_.restart.empty()) read_checkpoint();
-  try {
+  const Ending ending = recorded([&] {
     open_results();
     start_insitu();
     say_header();
@@ -50,17 +50,10 @@ Ending VesselRun::run() {
     if (coupling_ != nullptr) coupling_->end(time_at(step_));
     finish_insitu();
     make_movie();
-  } catch (const RunError& error) {
-    note_failure(error.what());
-    throw;
-  }
-  if (interrupted_) {
-    record_->fail("interrupted", results_, performance());
-  } else {
-    record_->complete(results_, performance());
-  }
+    return interrupted_;
+  });
   say_summary();
-  return interrupted_ ? Ending::interrupted : Ending::completed;
+  return ending;
 }
 
 void VesselRun::build() {

@@ -24,8 +24,9 @@ bool is_result(std::string name) {
   if (name.ends_with(".part")) name.resize(name.size() - 5);
   constexpr std::array fixed = {"run.json",       "history.csv", "particles.xdmf", "particles.h5",
                                 "network.xdmf",   "network.h5",  "network.vtp",    "generations.csv",
-                                "histograms.csv", "vessels.csv", "movie.mp4",      "samples.csv",
-                                "probability.csv"};
+                                "histograms.csv", "vessels.csv", "screening.csv",  "risk_histograms.csv",
+                                "coupling.csv",   "cascade.csv", "samples.csv",    "probability.csv",
+                                "movie.mp4"};
   return std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
          (name.starts_with("particles_from_") && (name.ends_with(".h5") || name.ends_with(".xdmf")));
 }
@@ -86,6 +87,30 @@ void remove_files(const fs::path& directory, Predicate is_ours) {
   }
 }
 
+/// What a run left in a folder of its own.
+void remove_results(const fs::path& directory) {
+  remove_files(directory, [](const fs::path& path) { return is_result(path.filename()); });
+  if (fs::is_directory(directory / "images"))
+    remove_files(directory / "images", [](const fs::path& path) { return !picture_series(path).empty(); });
+}
+
+/// The folders event_<digits> of a cascade go, unless somebody else has put something there.
+void remove_events(const fs::path& directory) {
+  std::vector<fs::path> events;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory)) {
+    const std::string name = entry.path().filename();
+    if (entry.is_directory() && name.starts_with("event_") && name.size() > 6 &&
+        name.find_first_not_of("0123456789", 6) == std::string::npos) {
+      events.push_back(entry.path());
+    }
+  }
+  for (const fs::path& event : events) {
+    remove_results(event);
+    std::error_code not_empty;
+    for (const fs::path& path : {event / "images", event / "checkpoints", event}) fs::remove(path, not_empty);
+  }
+}
+
 }  // namespace
 
 void prepare_directory(const fs::path& directory, EarlierResults earlier,
@@ -97,8 +122,8 @@ void prepare_directory(const fs::path& directory, EarlierResults earlier,
       try_to_write_in(path);
     }
     if (earlier == EarlierResults::remove) {
-      remove_files(directory, [](const fs::path& path) { return is_result(path.filename()); });
-      remove_files(directory / "images", [](const fs::path& path) { return !picture_series(path).empty(); });
+      remove_results(directory);
+      remove_events(directory);
     }
     created.keep();
   });

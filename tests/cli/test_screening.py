@@ -232,6 +232,18 @@ class Screening(unittest.TestCase):
         coefficient, density = given["load"]["discharge_coefficient"]["value"], given["blood"]["density"]["value"]
         self.assertAlmostEqual(leak / (coefficient * opening * math.sqrt(2 * middle / density)), 1, places=5)
 
+    def test_a_cascade_that_cannot_go_on_keeps_what_it_has(self):
+        """The second vessel is too short to be simulated."""
+        (self.path / "v.csv").write_text(VESSELS.replace("b,neck,b,1.5,6,0.46", "b,neck,b,1.5,0.3,0.42"))
+        text = FILES.replace('"screening"', '"a"') + '[cascade]\nevents = 5\noutcome = "occlusion"\n'
+        text = text.replace('spacing = "200 um"', "particles = 30000")
+        done = self.run_scene(text, sets=['time.end="1.4 ms"', 'load.ramp_time="1.2 ms"'], status=3)
+        self.assertIn("10 spacings", done.stderr)
+        record = json.loads((self.path / "out" / "run.json").read_text())
+        self.assertIn("10 spacings", record["status"])
+        self.assertEqual([event["name"] for event in record["results"]["cascade"]], ["a"])
+        self.assertTrue((self.path / "out" / "event_01" / "history.csv").exists())
+
     def test_a_wall_that_holds_is_not_tried_again(self):
         # A limit far below one: screening sends vessels whose walls hold.
         text = FILES + "[cascade]\nevents = 2\nrisk_limit = 0.1\n"

@@ -41,12 +41,16 @@ TEST(Directory, IsMadeWithItsParentsAndParts) {
 
 TEST(Directory, ResultsOfAnEarlierRunGoAndNothingElse) {
   const TemporaryDirectory directory;
-  const std::vector<std::string> ours = {
-      "run.json",     "history.csv", "particles.xdmf",         "particles.h5",  "network.h5",
-      "network.xdmf", "movie.mp4",   "images/vessel_0001.png", "run.json.part", "particles_from_000100.h5"};
-  const std::vector<std::string> others = {"notes.txt",       "particles_from_me.txt", "other.h5",
-                                           "picture.png",     "images/notes.txt",      "images/deeper/a.png",
-                                           "images/mine.png", "checkpoints/000100.h5"};
+  const std::vector<std::string> ours = {"run.json",       "history.csv",
+                                         "particles.xdmf", "particles.h5",
+                                         "network.h5",     "network.xdmf",
+                                         "movie.mp4",      "images/vessel_0001.png",
+                                         "run.json.part",  "particles_from_000100.h5",
+                                         "cascade.csv",    "event_02/run.json"};
+  const std::vector<std::string> others = {
+      "notes.txt",         "particles_from_me.txt", "other.h5",        "picture.png",
+      "images/notes.txt",  "images/deeper/a.png",   "images/mine.png", "checkpoints/000100.h5",
+      "event_03/mine.csv", "event_of_mine/run.json"};
   make_files(directory.path(), ours);
   make_files(directory.path(), others);
   prepare_directory(directory.path(), EarlierResults::keep, world);
@@ -55,6 +59,7 @@ TEST(Directory, ResultsOfAnEarlierRunGoAndNothingElse) {
   prepare_directory(directory.path(), EarlierResults::remove, world);
   for (const std::string& name : ours) EXPECT_FALSE(fs::exists(directory / name)) << name;
   for (const std::string& name : others) EXPECT_TRUE(fs::exists(directory / name)) << name;
+  EXPECT_FALSE(fs::exists(directory / "event_02"));
 }
 
 TEST(Directory, AFileInItsPlaceIsAnErrorOnAllRanks) {
