@@ -40,6 +40,7 @@ class CascadeRun : private RunBase {
       while (!next->at_rest() && last == Ending::completed &&
              static_cast<std::int64_t>(results_.cascade.size()) < c_.coupling.events) {
         last = simulate(*next);
+        write_table();
         const Aftermath aftermath = c_.aftermath;
         c_ = first;
         c_.aftermath = aftermath;

@@ -243,6 +243,8 @@ class Screening(unittest.TestCase):
         self.assertIn("10 spacings", record["status"])
         self.assertEqual([event["name"] for event in record["results"]["cascade"]], ["a"])
         self.assertTrue((self.path / "out" / "event_01" / "history.csv").exists())
+        (event,) = rows(self.path / "out" / "cascade.csv")
+        self.assertEqual((event["name"], event["ruptured"], event["next_vessel"]), ("a", "true", ""))
 
     def test_a_wall_that_holds_is_not_tried_again(self):
         # A limit far below one: screening sends vessels whose walls hold.
