@@ -88,6 +88,8 @@ class CascadeRun : private RunBase {
     event.update(to_json(vessel));
     event["net_pressure_Pa"] = pressure;
     event["ruptured"] = r.rupture_onset_s.has_value();
+    // An interrupted wall might have torn yet.
+    if (ending == Ending::interrupted && !r.rupture_onset_s) event["ruptured"] = nullptr;
     event["rupture_onset_s"] = nullptr;
     if (r.rupture_onset_s) {
       event["time_s"] = elapsed_ + *r.rupture_onset_s;
@@ -110,7 +112,7 @@ class CascadeRun : private RunBase {
     if (!comm_.is_root()) return;
     nlohmann::ordered_json& event = results_.cascade.back();
     event["inflow_after_m3_s"] = after.inflow();
-    if (event["ruptured"] && !after.leaks().empty()) event["leak_m3_s"] = after.leaks().back();
+    if (event["ruptured"] == true && !after.leaks().empty()) event["leak_m3_s"] = after.leaks().back();
     if (after.risk() <= 0) return;
     event["next_vessel"] = after.vessel().name;
     event["next_risk"] = after.risk();
@@ -153,15 +155,15 @@ class CascadeRun : private RunBase {
     console_.line("Cascade:");
     if (comm_.is_root()) {
       for (const auto& event : results_.cascade) {
-        const bool ruptured = event["ruptured"];
         console_.item(
             fmt::format("event {}", event["event"].get<int>()),
             fmt::format("{}, risk {:.3f}: {}", event["name"].get<std::string>(), event["risk"].get<double>(),
-                        ruptured ? fmt::format("ruptured at {}, inflow {:.4g} to {:.4g} mL/min",
-                                               quantity(event["time_s"].get<double>(), "s"),
-                                               event["inflow_before_m3_s"].get<double>() * 6e7,
-                                               event["inflow_after_m3_s"].get<double>() * 6e7)
-                                 : std::string("held")));
+                        event["ruptured"] == true
+                            ? fmt::format("ruptured at {}, inflow {:.4g} to {:.4g} mL/min",
+                                          quantity(event["time_s"].get<double>(), "s"),
+                                          event["inflow_before_m3_s"].get<double>() * 6e7,
+                                          event["inflow_after_m3_s"].get<double>() * 6e7)
+                            : std::string(event["ruptured"].is_null() ? "interrupted" : "held")));
       }
     }
     console_.item("ended", why_ended);
