@@ -82,10 +82,10 @@ void NetworkRun::say_summary() {
 void NetworkRun::say_screening() {
   if (!solution_.screening) return;
   const screening::Screening& s = *solution_.screening;
-  console_.item("at risk",
-                fmt::format("{} vessels are strained beyond their critical stretch{}",
-                            grouped(static_cast<long long>(s.above)),
-                            s.top.empty() ? "" : "; highest risk (strain over critical stretch):"));
+  console_.item(
+      "at risk",
+      fmt::format("{} strained beyond their critical stretch{}", grouped(static_cast<long long>(s.above)),
+                  s.top.empty() ? "" : "; highest risk (strain over critical stretch):"));
   constexpr std::size_t most_said = 5;
   for (std::size_t i = 0; i < std::min(s.top.size(), most_said); ++i) {
     const QueriedVessel& q = solution_.at_risk[i];
