@@ -4,22 +4,10 @@
     postprocessing/plot_history.py results/perivessel/history.csv [-o history.png]
 """
 
-import argparse
-import sys
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("Agg")  # no display needed
+from table_plot import main  # before pyplot: settles how matplotlib draws
 
 import matplotlib.pyplot as plt
 import numpy
-
-
-def read(path):
-    """Columns by name; an empty value is not a number."""
-    table = numpy.genfromtxt(path, delimiter=",", names=True, dtype=float)
-    return {name: numpy.atleast_1d(table[name]) for name in table.dtype.names}
 
 
 def two_axes(axes, time_ms, left, right):
@@ -64,16 +52,4 @@ def plot(history):
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("history", type=Path, help="history.csv of a run")
-    parser.add_argument("-o", "--output", type=Path, help="image to write (default: history.png beside it)")
-    arguments = parser.parse_args()
-    if not arguments.history.exists():
-        sys.exit(f"error: no file {arguments.history}")
-    output = arguments.output or arguments.history.with_suffix(".png")
-    plot(read(arguments.history)).savefig(output, dpi=150)
-    print(output)
-
-
-main()
+main(__doc__, "history", "a run", plot)

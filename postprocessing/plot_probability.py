@@ -4,24 +4,11 @@
     postprocessing/plot_probability.py results/rupture_probability/probability.csv [-o probability.png]
 """
 
-import argparse
-import sys
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("Agg")  # no display needed
+from table_plot import main  # before pyplot: settles how matplotlib draws
 
 import matplotlib.pyplot as plt
-import numpy
 
 MMHG = 133.322387415  # Pa
-
-
-def read(path):
-    """Columns by name; an empty value is not a number."""
-    table = numpy.genfromtxt(path, delimiter=",", names=True, dtype=float)
-    return {name: numpy.atleast_1d(table[name]) for name in table.dtype.names}
 
 
 def plot(table):
@@ -47,16 +34,4 @@ def plot(table):
     return figure
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("table", type=Path, help="probability.csv of an ensemble")
-    parser.add_argument("-o", "--output", type=Path, help="image to write (default: probability.png beside it)")
-    arguments = parser.parse_args()
-    if not arguments.table.exists():
-        sys.exit(f"error: no file {arguments.table}")
-    output = arguments.output or arguments.table.with_suffix(".png")
-    plot(read(arguments.table)).savefig(output, dpi=150)
-    print(output)
-
-
-main()
+main(__doc__, "probability", "an ensemble", plot)
