@@ -11,6 +11,8 @@
 #include "core/format.hpp"
 #include "peridynamics/body.hpp"
 #include "peridynamics/bond_kernel.hpp"
+#include "peridynamics/elastic_error.hpp"
+#include "peridynamics/surface_correction.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -56,7 +58,7 @@ double body_bytes(const Configuration& c, const Lattice& lattice, const BondFami
 void check_wall(const Configuration& c, parallel::Communicator comm,
                 const std::function<void(Console&)>& say_more) {
   const Lattice lattice = peridynamics::make_lattice(c.vessel);
-  const BondFamilies families = peridynamics::make_families(lattice);
+  const BondFamilies families = peridynamics::make_families(c.vessel, lattice);
   const bool periodic = peridynamics::end_condition(c.vessel) == peridynamics::EndCondition::axial_periodic;
   // A sample of an ensemble belongs to one rank, while the others have theirs.
   const double step = comm.all_reduce(
@@ -78,6 +80,13 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   console.item("bonds", fmt::format("{}, at most {} a particle",
                                     grouped(peridynamics::count_bonds(lattice, families, periodic)),
                                     peridynamics::largest_family(lattice, families, periodic)));
+  const peridynamics::ElasticError error = peridynamics::elastic_error(
+      c.vessel, peridynamics::make_setup(c.vessel, lattice, families, c.time_step));
+  console.item("accuracy",
+               fmt::format("{:.2g} % off Lame's static expansion, evenly over the wall to {:.2g} % "
+                           "(surface correction {}, layer {})",
+                           100 * error.relative_l2, 100 * error.spread,
+                           peridynamics::surface_correction(c.vessel), c.vessel.layer));
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));

@@ -14,6 +14,7 @@
 #include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
+#include "peridynamics/surface_correction.hpp"
 #include "peridynamics/time_steps.hpp"
 
 namespace rhexis::app {
@@ -37,7 +38,7 @@ void settle_time_step(Configuration& c) {
   const peridynamics::Lattice lattice = peridynamics::make_lattice(c.vessel);
   peridynamics::make_pressure_layer(c.vessel, lattice);  // throws where no particle would be loaded
   const peridynamics::TimeSteps time =
-      peridynamics::time_steps(c.vessel, lattice, peridynamics::make_families(lattice));
+      peridynamics::time_steps(c.vessel, lattice, peridynamics::make_families(c.vessel, lattice));
   c.stable_time_step = time.stable;
   c.time_step = time.step;
   c.steps = time.count;

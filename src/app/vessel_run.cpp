@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "peridynamics/schedule.hpp"
+#include "peridynamics/surface_correction.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -58,7 +59,7 @@ Ending VesselRun::run() {
 
 void VesselRun::build() {
   lattice_ = peridynamics::make_lattice(c_.vessel);
-  peridynamics::BondFamilies families = peridynamics::make_families(lattice_);
+  peridynamics::BondFamilies families = peridynamics::make_families(c_.vessel, lattice_);
   const bool periodic = peridynamics::end_condition(c_.vessel) == peridynamics::EndCondition::axial_periodic;
   results_.particles = lattice_.particles();
   results_.bonds = peridynamics::count_bonds(lattice_, families, periodic);

@@ -6,6 +6,7 @@
 #include "core/format.hpp"
 #include "peridynamics/body.hpp"
 #include "peridynamics/schedule.hpp"
+#include "peridynamics/surface_correction.hpp"
 #include "peridynamics/time_steps.hpp"
 
 namespace rhexis::ensemble {
@@ -21,7 +22,7 @@ std::optional<Sample> simulate(const Parameters& p, const peridynamics::Paramete
   vessel.pressure = pressure;
 
   const peridynamics::Lattice lattice = peridynamics::make_lattice(vessel);
-  peridynamics::BondFamilies families = peridynamics::make_families(lattice);
+  peridynamics::BondFamilies families = peridynamics::make_families(vessel, lattice);
   const peridynamics::TimeSteps time = peridynamics::time_steps(vessel, lattice, families);
   const auto body =
       peridynamics::make_body(peridynamics::make_setup(vessel, lattice, std::move(families), time.step),

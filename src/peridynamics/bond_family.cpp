@@ -101,9 +101,8 @@ double stable_time_step(const Lattice& lattice, const BondFamilies& families, do
   double stiffest = 0;  // sum_j V_j / |xi|, m2
   for (std::size_t c = 0; c < lattice.section.size(); ++c) {
     double sum = 0;
-    for (std::int64_t b = families.first[c]; b < families.first[c + 1]; ++b) {
-      const Bond& bond = families.bonds[b];
-      sum += lattice.volume(bond.other) / (bond.length * lattice.spacing);
+    for (const Bond& bond : families.of(c)) {
+      sum += bond.weight * lattice.volume(bond.other) / (bond.length * lattice.spacing);
     }
     stiffest = std::max(stiffest, sum);
   }

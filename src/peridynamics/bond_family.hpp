@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "peridynamics/cross_section.hpp"
@@ -14,8 +15,9 @@ namespace rhexis::peridynamics {
 struct Bond {
   std::int32_t other;  ///< column
   std::int32_t row_offset;
-  double xi[3];   ///< reference vector to the other particle, in spacings
-  double length;  ///< |xi|, in spacings
+  double xi[3];       ///< reference vector to the other particle, in spacings
+  double length;      ///< |xi|, in spacings
+  double weight = 1;  ///< factor on force and energy, see surface_correction.hpp
 };
 
 /// Bonds of all columns, those of column c at [first[c], first[c + 1]), ordered by (other, row_offset): an
@@ -26,9 +28,15 @@ struct BondFamilies {
   int reach = 0;  ///< largest |row_offset|
 
   std::int64_t count(std::size_t column) const { return first[column + 1] - first[column]; }
+  std::span<const Bond> of(std::size_t column) const {
+    return {bonds.data() + first[column], static_cast<std::size_t>(count(column))};
+  }
+  std::span<Bond> of(std::size_t column) {
+    return {bonds.data() + first[column], static_cast<std::size_t>(count(column))};
+  }
 };
 
-/// Eq. (1)'s families, |xi| <= horizon.
+/// Eq. (1)'s families, |xi| <= horizon, all weights 1.
 BondFamilies make_families(const Lattice& lattice);
 
 /// Undirected bonds in the whole body, ends taken into account.
@@ -38,7 +46,7 @@ std::int64_t count_bonds(const Lattice& lattice, const BondFamilies& families, b
 std::int64_t largest_family(const Lattice& lattice, const BondFamilies& families, bool periodic);
 
 /// Stable time step of velocity Verlet for bonds of stiffness c/|xi|, s:
-/// dt = sqrt(2 rho / max_i sum_j c V_j / |xi_ij|) (Silling & Askari 2005, Eq. 36, for any direction of
+/// dt = sqrt(2 rho / max_i sum_j w_ij c V_j / |xi_ij|) (Silling & Askari 2005, Eq. 36, for any direction of
 /// motion). `bond_constant` in N/m6, `density` in kg/m3.
 double stable_time_step(const Lattice& lattice, const BondFamilies& families, double bond_constant,
                         double density);

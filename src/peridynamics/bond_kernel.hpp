@@ -25,9 +25,9 @@ template <class Real>
 struct BondConstants {
   Real xi[3];
   Real inverse_length2;  ///< 1 / |xi|^2
-  Real weight;           ///< V_j / (spacing^3 |xi|): force density is c spacing^3 sum weight g(t) y
+  Real weight;           ///< w V_j / (spacing^3 |xi|): force density is c spacing^3 sum weight g(t) y
   Real volume;           ///< V_j / spacing^3
-  Real energy_weight;    ///< volume |xi|: energy density is c spacing^4 sum energy_weight s^2/2, halved
+  Real energy_weight;    ///< w volume |xi|: energy density is c spacing^4 sum energy_weight s^2/2, halved
   std::int32_t offset;   ///< of the partner in padded arrays, from the particle's own place
 };
 

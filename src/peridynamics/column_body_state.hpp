@@ -21,9 +21,9 @@ void ColumnBody<Law, Real>::make_bonds() {
                           static_cast<std::int64_t>(domain_.padded(static_cast<std::size_t>(c)));
       bonds_.push_back({{Real(bond.xi[0]), Real(bond.xi[1]), Real(bond.xi[2])},
                         Real(1 / (bond.length * bond.length)),
-                        Real(volume / bond.length),
+                        Real(bond.weight * volume / bond.length),
                         Real(volume),
-                        Real(volume * bond.length),
+                        Real(bond.weight * volume * bond.length),
                         static_cast<std::int32_t>(offset)});
     }
     first_bond_.push_back(static_cast<std::int64_t>(bonds_.size()));

@@ -55,6 +55,16 @@ CrossSection lattice_cross_section(double inner_radius, double outer_radius, dou
   return sorted_by_angle(section);
 }
 
+void rotate(CrossSection& section, double angle) {
+  if (angle == 0) return;
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (std::size_t i = 0; i < section.size(); ++i) {
+    const double x = section.x[i], y = section.y[i];
+    section.x[i] = c * x - s * y;
+    section.y[i] = s * x + c * y;
+  }
+}
+
 CrossSection polar_cross_section(double inner_radius, double outer_radius, double spacing) {
   const double wall = outer_radius - inner_radius;
   const long rings = std::max(1L, std::lround(wall / spacing));
@@ -75,7 +85,10 @@ CrossSection polar_cross_section(double inner_radius, double outer_radius, doubl
                              static_cast<double>(per_ring));
     }
   }
-  return sorted_by_angle(section);
+  section = sorted_by_angle(section);
+  section.rings = static_cast<std::int32_t>(rings);
+  section.per_ring = static_cast<std::int32_t>(per_ring);
+  return section;
 }
 
 Lattice make_lattice(const Parameters& p) {
@@ -86,6 +99,7 @@ Lattice make_lattice(const Parameters& p) {
                         ? polar_cross_section(p.inner_radius, p.outer_radius, *p.spacing)
                         : lattice_cross_section(p.inner_radius, p.outer_radius, *p.spacing,
                                                 p.lattice_shift[0], p.lattice_shift[1]);
+  rotate(lattice.section, p.rotation);
   if (lattice.section.size() == 0) {
     throw InputError("no particle falls into the wall at this spacing", "discretisation.spacing");
   }

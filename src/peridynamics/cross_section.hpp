@@ -13,8 +13,9 @@
 namespace rhexis::peridynamics {
 
 struct CrossSection {
-  std::vector<double> x, y;  ///< m, from the vessel's axis
-  std::vector<double> area;  ///< m2
+  std::vector<double> x, y;              ///< m, from the vessel's axis
+  std::vector<double> area;              ///< m2
+  std::int32_t rings = 0, per_ring = 0;  ///< of a polar one
 
   std::size_t size() const { return x.size(); }
 };
@@ -26,6 +27,9 @@ CrossSection lattice_cross_section(double inner_radius, double outer_radius, dou
 /// Rings that follow the wall: round((r1 - r0) / spacing) rings of equally many columns, aligned, about
 /// `spacing` apart at mid-wall; the areas fill the wall exactly.
 CrossSection polar_cross_section(double inner_radius, double outer_radius, double spacing);
+
+/// Turns all columns about the axis by `angle`, rad.
+void rotate(CrossSection& section, double angle);
 
 /// A vessel's particles before any are made: where columns stand, how many rows, how far apart.
 struct Lattice {

@@ -37,13 +37,23 @@ ParameterList declare(Parameters& p) {
       {"discretisation.cross_section",
        &p.cross_section,
        "",
-       "\"lattice\"",
-       "Arrangement of particles over the cross-section: the paper's cubic lattice clipped to the wall, or "
-       "rings "
-       "that follow the wall.",
+       "\"polar\"",
+       "Arrangement of particles over the cross-section: rings that follow the wall, or the paper's cubic "
+       "lattice clipped to the wall.",
        "Sec. 3.2",
        {},
-       {"lattice", "polar"}},
+       {"polar", "lattice"}},
+      {"discretisation.surface_correction",
+       &p.surface_correction,
+       "",
+       "\"auto\"",
+       "Weights of bonds that make up for what families near a surface lack: none (the paper); volume; "
+       "energy; "
+       "or calibrated, so that the wall has the elastic energy of every homogeneous strain (polar only). "
+       "\"auto\" is calibrated on a polar cross-section, none on a lattice.",
+       "Le & Bobaru 2018; Madenci & Oterkus 2014; Prakash 2018",
+       {},
+       {"auto", "none", "volume", "energy", "calibrated"}},
       {"discretisation.spacing", &p.spacing, "m", "\"auto\"",
        "Distance between particles; \"auto\" takes it from discretisation.particles.", "Table 2; Sec. 3.3",
        Range::positive()},
@@ -60,6 +70,8 @@ ParameterList declare(Parameters& p) {
        "lies "
        "between four columns; 0: on a column).",
        "", Range::between(0, 1)},
+      {"discretisation.rotation", &p.rotation, "rad", "\"0 deg\"",
+       "Turn of the arrangement about the vessel's axis: results should not depend on it.", ""},
       {"discretisation.bond_precision",
        &p.bond_precision,
        "",
@@ -101,12 +113,14 @@ ParameterList declare(Parameters& p) {
       {"load.layer",
        &p.layer,
        "",
-       "\"consistent\"",
-       "Body force of the pressure in the innermost layer of the wall: paper (P / thickness) or consistent "
-       "(scaled so that its resultant is exactly P 2 pi r0 L).",
+       "\"nonlocal\"",
+       "Body force of the pressure in the innermost layer of the wall: nonlocal (distributed as bonds pull "
+       "that "
+       "a surface cuts, resultant exactly P 2 pi r0 L), consistent (the same everywhere, resultant exact) or "
+       "paper (P / thickness).",
        "Eq. (8)",
        {},
-       {"paper", "consistent"}},
+       {"nonlocal", "consistent", "paper"}},
       {"load.layer_thickness", &p.layer_thickness, "m", "\"auto\"",
        "Thickness of the loaded layer, from r0 outwards; \"auto\" is one horizon.", "Eq. (8)",
        Range::positive()},
@@ -247,6 +261,10 @@ std::vector<std::string> resolve(Parameters& p) {
   }
   if (p.lattice_shift.size() != 2) {
     throw InputError("two numbers are needed, for x and y", "discretisation.lattice_shift");
+  }
+  if (p.surface_correction == "calibrated" && p.cross_section != "polar") {
+    throw InputError("\"calibrated\" needs discretisation.cross_section = \"polar\"",
+                     "discretisation.surface_correction");
   }
   resolve_spacing(p);
   if (p.length < *p.spacing) throw InputError("the vessel is shorter than one spacing", "vessel.length");

@@ -20,12 +20,14 @@ struct Parameters {
   double young_modulus = 0;  ///< Pa; Poisson's ratio is 1/4 in the bond-based law
   double critical_stretch = 0;
 
-  std::string cross_section;      ///< "lattice" | "polar"
-  std::optional<double> spacing;  ///< m
+  std::string cross_section;       ///< "lattice" | "polar"
+  std::string surface_correction;  ///< see surface_correction.hpp
+  std::optional<double> spacing;   ///< m
   std::optional<std::int64_t> particles;
   std::optional<double> horizon;      ///< m
   double horizon_ratio = 0;           ///< horizon / spacing where `horizon` is "auto"
   std::vector<double> lattice_shift;  ///< of the nearest column from the axis, in spacings, two numbers
+  double rotation = 0;                ///< rad
   std::string bond_precision;         ///< "single" | "double"
 
   std::string ends;                  ///< see EndCondition
@@ -35,7 +37,7 @@ struct Parameters {
   std::string schedule;                   ///< "step" | "ramp" | "smooth_ramp" | "table"
   std::optional<double> ramp_time;        ///< s
   std::vector<CurvePoint> table;          ///< (s, Pa)
-  std::string layer;                      ///< "paper" | "consistent"
+  std::string layer;                      ///< see PressureLayer
   std::optional<double> layer_thickness;  ///< m
   std::string venting;                    ///< "none" | "orifice"
   std::optional<double> supply_area;      ///< m2

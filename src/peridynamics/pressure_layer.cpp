@@ -1,5 +1,6 @@
 #include "peridynamics/pressure_layer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,20 +13,23 @@ PressureLayer make_pressure_layer(const Parameters& p, const Lattice& lattice) {
   const double inner = p.inner_radius - 1e-9 * lattice.spacing;
   const double outer = p.inner_radius + *p.layer_thickness + 1e-9 * lattice.spacing;
   PressureLayer layer{std::vector<double>(s.size()), std::vector<double>(s.size())};
-  double loaded_area = 0;
+  double resultant = 0;  // per length and unit of pressure
   for (std::size_t c = 0; c < s.size(); ++c) {
     const double r = std::hypot(s.x[c], s.y[c]);
     if (r < inner || r > outer) continue;
-    layer.bx[c] = s.x[c] / r;
-    layer.by[c] = s.y[c] / r;
-    loaded_area += s.area[c];
+    const double depth = (r - p.inner_radius) / *p.layer_thickness;
+    const double share =
+        p.layer == "nonlocal" ? std::max(0.0, 1 - depth * depth * depth * (4 - 3 * depth)) : 1.0;
+    layer.bx[c] = share * s.x[c] / r;
+    layer.by[c] = share * s.y[c] / r;
+    resultant += share * s.area[c];
   }
-  if (loaded_area == 0) {
+  if (resultant == 0) {
     throw InputError("no particle lies in the loaded layer; make it at least one spacing thick",
                      "load.layer_thickness");
   }
   const double magnitude =
-      p.layer == "paper" ? 1 / *p.layer_thickness : 2 * std::numbers::pi * p.inner_radius / loaded_area;
+      p.layer == "paper" ? 1 / *p.layer_thickness : 2 * std::numbers::pi * p.inner_radius / resultant;
   for (std::size_t c = 0; c < s.size(); ++c) {
     layer.bx[c] *= magnitude;
     layer.by[c] *= magnitude;

@@ -18,8 +18,11 @@ struct PressureLayer {
   bool loads(std::size_t column) const { return bx[column] != 0 || by[column] != 0; }
 };
 
-/// `layer` "paper": |b| = P / thickness. "consistent": |b| equal over the layer, scaled so that the resultant
-/// sum |b| V is exactly P 2 pi r0 L. Throws InputError where the layer holds no particle.
+/// `layer` "paper": |b| = P / thickness. Of the others the resultant sum |b| V is exactly P 2 pi r0 L.
+/// "consistent": |b| is the same over the layer. "nonlocal": at depth x (in thicknesses) |b| is in proportion
+/// to 1 - 4 x^3 + 3 x^4, the pull on a particle of the bonds that a flat surface cuts from its family under
+/// uniform stress, so that such a stress reaches the surface undisturbed. Throws InputError where the layer
+/// holds no particle.
 PressureLayer make_pressure_layer(const Parameters& p, const Lattice& lattice);
 
 }  // namespace rhexis::peridynamics

@@ -9,6 +9,7 @@
 #include "peridynamics/body.hpp"
 #include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/parameters.hpp"
+#include "peridynamics/surface_correction.hpp"
 
 namespace rhexis::test {
 
@@ -26,6 +27,7 @@ inline peridynamics::Parameters paper_vessel(double length = 2e-3) {
   p.young_modulus = 3.5e6;
   p.critical_stretch = 0.25;
   p.cross_section = "lattice";
+  p.surface_correction = "auto";
   p.spacing = 1e-4;
   p.horizon = 3.5e-4;
   p.lattice_shift = {0.5, 0.5};
@@ -42,7 +44,7 @@ inline peridynamics::Parameters paper_vessel(double length = 2e-3) {
 inline peridynamics::BodySetup setup_of(peridynamics::Parameters p, double time_step) {
   peridynamics::resolve(p);
   peridynamics::Lattice lattice = peridynamics::make_lattice(p);
-  peridynamics::BondFamilies families = peridynamics::make_families(lattice);
+  peridynamics::BondFamilies families = peridynamics::make_families(p, lattice);
   return peridynamics::make_setup(p, std::move(lattice), std::move(families), time_step);
 }
 
