@@ -70,7 +70,7 @@ ParameterList declare(Parameters& p) {
        "lies "
        "between four columns; 0: on a column).",
        "", Range::between(0, 1)},
-      {"discretisation.rotation", &p.rotation, "rad", "\"0 deg\"",
+      {"discretisation.rotation", &p.rotation, "rad", "\"0 rad\"",
        "Turn of the arrangement about the vessel's axis: results should not depend on it.", ""},
       {"discretisation.bond_precision",
        &p.bond_precision,

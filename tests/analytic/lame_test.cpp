@@ -75,26 +75,7 @@ TEST_P(AtRest, EngineAgreesWithLinearSolution) {
   setup.time_step = 0.9 * test::stable_step_of(setup);
   const auto body = make_body(BodySetup(setup), test::self());
   const double pressure = 500;  // strains of 5e-4: small
-  // Dynamic relaxation: velocities are dropped whenever the kinetic energy has passed a peak.
-  const auto still = test::sample(*body, test::nothing);
-  double before = 0;
-  for (int i = 0; i < 2500; ++i) {
-    body->advance(pressure, pressure);
-    if (i % 5 != 0) continue;
-    body->observe(pressure);
-    const double kinetic = body->totals().kinetic;
-    if (kinetic < before) {
-      const auto u = body->displacement();
-      body->set_state(
-          {std::vector<double>(u[0].begin(), u[0].end()), std::vector<double>(u[1].begin(), u[1].end()),
-           std::vector<double>(u[2].begin(), u[2].end())},
-          still);
-      before = 0;
-    } else {
-      before = kinetic;
-    }
-  }
-  body->observe(pressure);
+  test::bring_to_rest(*body, pressure, 2500);
   ASSERT_LT(body->totals().kinetic, 1e-5 * body->totals().strain) << "not at rest";
 
   double error = 0, size = 0, least = INFINITY, most = 0;

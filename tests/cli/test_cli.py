@@ -148,7 +148,7 @@ class Cli(unittest.TestCase):
         self.write(GOOD)
         result = self.rhexis("check", "vessel.toml")
         self.assertEqual(result.returncode, 0, result.stderr)
-        for text in ("10,960", "100 um", "350 um", "stable"):
+        for text in ("11,000", "100 um", "350 um", "0.73 % off Lame", "stable"):
             self.assertIn(text, result.stdout)
         self.assertEqual(os.listdir(self.folder.name), ["vessel.toml"])
 
@@ -200,7 +200,7 @@ class Cli(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         record = self.record("results/vessel")
         self.assertEqual(record["status"], "completed")
-        self.assertEqual(record["results"]["particles"], 10960)
+        self.assertEqual(record["results"]["particles"], 11000)
         self.assertEqual(record["results"]["steps"], 100)
         self.assertEqual(record["performance"]["ranks"], 1)
         self.assertGreater(record["performance"]["bond_evaluations"], 1e6)

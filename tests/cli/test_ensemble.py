@@ -35,7 +35,7 @@ outer_radius = "2 mm"
 length = "1.6 mm"
 
 [material]
-critical_stretch = 0.025
+critical_stretch = 0.02
 
 [discretisation]
 spacing = "160 um"

@@ -70,8 +70,10 @@ density = "1.3 g/cm3"
 young_modulus = "3.5 MPa"
 critical_stretch = 0.02
 [discretisation]
+cross_section = "lattice"
 spacing = "200 um"
 [load]
+layer = "consistent"
 schedule = "smooth_ramp"
 ramp_time = "2 ms"
 [time]

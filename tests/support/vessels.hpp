@@ -70,4 +70,28 @@ inline std::array<double, 3> nothing(const std::array<double, 3>&) {
   return {0, 0, 0};
 }
 
+/// Dynamic relaxation: velocities are dropped whenever the kinetic energy has passed a peak. Observes at the
+/// end.
+inline void bring_to_rest(peridynamics::Body& body, double pressure, int steps) {
+  const auto still = sample(body, nothing);
+  double before = 0;
+  for (int i = 0; i < steps; ++i) {
+    body.advance(pressure, pressure);
+    if (i % 5 != 0) continue;
+    body.observe(pressure);
+    const double kinetic = body.totals().kinetic;
+    if (kinetic < before) {
+      const auto u = body.displacement();
+      body.set_state(
+          {std::vector<double>(u[0].begin(), u[0].end()), std::vector<double>(u[1].begin(), u[1].end()),
+           std::vector<double>(u[2].begin(), u[2].end())},
+          still);
+      before = 0;
+    } else {
+      before = kinetic;
+    }
+  }
+  body.observe(pressure);
+}
+
 }  // namespace rhexis::test
