@@ -118,9 +118,10 @@ layer = "consistent"
 schedule = "smooth_ramp"
 ramp_time = "0.2 ms"
 [material]
-critical_stretch = 0.009
+critical_stretch = 0.016
 """
 TORN_TREE = TORN_TREE.replace("artery_ratio = 0.75", "artery_ratio = 0.5").replace("[wall]", "length_ratio = 4\n[wall]")
+TORN_TREE = TORN_TREE.replace("[discretisation]", '[discretisation]\ncross_section = "lattice"')
 SHORT = {"j.csv": JUNCTIONS, "v.csv": VESSELS.replace(",6,0.75", ",0.3,0.75")}
 PLACELESS = "id,pressure [mmHg]\nheart,200\nneck,\nbrain,\nvein,20\n"
 CUFF = '[body]\ncompression = "10 mmHg"\n'

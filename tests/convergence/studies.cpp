@@ -294,7 +294,7 @@ std::vector<Dispersion> dispersion(double horizon_ratio) {
 std::vector<Ring> expansion(const Discretisation& d, double pressure) {
   const Parameters p = vessel(d);
   const auto body = make_body(test::setup_of(p, 0.9 * stable_step(d)), test::self());
-  test::bring_to_rest(*body, pressure, 4000);
+  test::bring_to_rest(*body, pressure, static_cast<int>(800 * d.across));
   const PointLayout& l = body->layout();
   std::map<long, Ring> rings;
   std::map<long, int> count;
