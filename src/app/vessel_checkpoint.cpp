@@ -20,7 +20,7 @@ output::WordBlock word_block(const peridynamics::Body& body) {
 /// a network says what the vessel is like, that.
 std::string body_description(const Configuration& c) {
   nlohmann::ordered_json values;
-  for (const char* section : {"vessel", "material", "discretisation", "boundary"}) {
+  for (const char* section : {"vessel", "material", "scatter", "discretisation", "boundary"}) {
     if (!c.record.contains(section)) continue;
     for (const auto& [key, entry] : c.record.at(section).items()) values[section][key] = entry.at("value");
   }

@@ -16,6 +16,7 @@
 #include "core/field_view.hpp"
 #include "parallel/communicator.hpp"
 #include "peridynamics/bond_family.hpp"
+#include "peridynamics/heterogeneity.hpp"
 #include "peridynamics/pressure_layer.hpp"
 
 namespace rhexis::peridynamics {
@@ -124,6 +125,7 @@ struct BodySetup {
   double time_step = 0;     ///< s
   double energy_scale = 0;  ///< J, order of magnitude of the energies that will occur
   bool double_bonds = false;
+  Heterogeneity heterogeneity = {};
 };
 
 /// The setup that resolved parameters describe.

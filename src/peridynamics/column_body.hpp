@@ -70,6 +70,7 @@ class ColumnBody final : public Body {
     }
     make_bonds();
     make_units();
+    make_local_properties();
     for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c) {
       largest_load_ = std::max(largest_load_, std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
     }
@@ -93,7 +94,7 @@ class ColumnBody final : public Body {
     const PointLayout& l = domain_.layout();
     const auto c = static_cast<std::size_t>(l.first_column + column);
     return {setup_.lattice.section.x[c], setup_.lattice.section.y[c],
-            (static_cast<double>(l.first_row + row) + 0.5) * setup_.lattice.row_spacing};
+            setup_.lattice.height(l.first_row + row)};
   }
 
   void set_state(const std::array<std::vector<double>, 3>& displacement,
@@ -160,12 +161,16 @@ class ColumnBody final : public Body {
 
   void make_bonds();
   void make_units();
+  void make_local_properties();
   double external_work() const {
     return work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
   }
   void follow_body();
   void fill_padded();
   BlockView<Real> view(Unit unit);
+  template <bool observing>
+  void sum(Unit unit, BlockSums<Real>& sums);
+  double breaking_energy(Unit unit, const BondConstants<Real>& bond, std::uint16_t broken) const;
   std::pair<int, int> free_rows(Unit unit, int component) const;
   void family_volumes(Unit unit, double (&intact)[block_rows], double (&whole)[block_rows]) const;
   bool has_ruptured(Unit unit) const;
@@ -185,7 +190,8 @@ class ColumnBody final : public Body {
   std::vector<std::int64_t> first_bond_;  ///< of owned columns, into bonds_
   std::vector<BondConstants<Real>> bonds_;
   std::vector<std::uint16_t> intact_;
-  std::vector<Unit> interior_, boundary_;  ///< units that read no halo, units that do
+  std::vector<Real> half_stretch_, half_stiffness_;  ///< padded (see LocalProperties); empty: a uniform wall
+  std::vector<Unit> interior_, boundary_;            ///< units that read no halo, units that do
 
   std::array<std::vector<double>, 3> u_, v_;  ///< m; m/s at half a step back (see first_kick_pending_)
   std::array<Padded, 2> padded_;

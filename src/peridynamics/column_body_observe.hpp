@@ -5,10 +5,27 @@
 
 namespace rhexis::peridynamics {
 
+/// What it took to break one bond of the unit in the rows of `broken`, in units of a uniform wall's.
+template <class Law, class Real>
+double ColumnBody<Law, Real>::breaking_energy(Unit unit, const BondConstants<Real>& bond,
+                                              std::uint16_t broken) const {
+  if (half_stretch_.empty()) return std::popcount(broken);
+  const std::size_t here = padded_place(unit),
+                    there = here + static_cast<std::size_t>(std::int64_t{bond.offset});
+  double energy = 0;
+  for (int rows = broken; rows != 0; rows &= rows - 1) {
+    const auto row = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(rows)));
+    const double s =
+        (double{half_stretch_[here + row]} + double{half_stretch_[there + row]}) / setup_.critical_stretch;
+    energy += s * s * (double{half_stiffness_[here + row]} + double{half_stiffness_[there + row]});
+  }
+  return energy;
+}
+
 template <class Law, class Real>
 void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals) {
   BlockSums<Real> sums;
-  sum_block<Law, true>(view(unit), sums);
+  sum<true>(unit, sums);
   totals.broken += sums.broken;
 
   const std::size_t column = global_column(unit.slot);
@@ -60,7 +77,8 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   double fracture = 0;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     const std::uint16_t born = domain_.partners(unit.block, reference_bond(unit, b).row_offset);
-    fracture += std::popcount(static_cast<std::uint16_t>(born & ~words[b])) * double{bonds[b].energy_weight};
+    const auto broken = static_cast<std::uint16_t>(born & ~words[b]);
+    fracture += breaking_energy(unit, bonds[b], broken) * double{bonds[b].energy_weight};
   }
   totals.fracture.add(per_weight * fracture);
 }

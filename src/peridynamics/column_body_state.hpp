@@ -52,6 +52,36 @@ void ColumnBody<Law, Real>::make_units() {
   }
 }
 
+/// Halo included: what a place is like is no secret of its owner.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::make_local_properties() {
+  if (setup_.heterogeneity.uniform()) return;
+  half_stretch_.resize(domain_.padded_size());
+  half_stiffness_.resize(domain_.padded_size());
+  const PointLayout& l = domain_.layout();
+  const std::int64_t reach = setup_.families.reach;
+  const std::int64_t below = periodic_ ? reach : std::min(reach, l.first_row);
+  const std::int64_t past = l.row_count + reach;
+  const std::int64_t above = periodic_ ? past : std::min(past, l.rows - l.first_row);
+  std::vector<double> z;
+  for (std::int64_t row = -below; row < above; ++row)
+    z.push_back(setup_.lattice.height((l.first_row + row + l.rows) % l.rows));
+  const CrossSection& section = setup_.lattice.section;
+  const auto columns = domain_.columns();
+  parallel::for_each_share(threads_, columns.size(), [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const auto c = static_cast<std::size_t>(columns[slot]);
+      const auto factors = setup_.heterogeneity.along(section.x[c], section.y[c], z);
+      const std::size_t first = domain_.padded(slot) - static_cast<std::size_t>(below);
+      for (std::size_t i = 0; i < factors.size(); ++i) {
+        half_stretch_[first + i] =
+            static_cast<Real>(0.5 * setup_.critical_stretch * factors[i].critical_stretch);
+        half_stiffness_[first + i] = static_cast<Real>(0.5 * factors[i].stiffness);
+      }
+    }
+  });
+}
+
 /// Moves the frame to the middle of the body's displacements, found from exact minima and maxima so that
 /// every partition takes the same.
 template <class Law, class Real>

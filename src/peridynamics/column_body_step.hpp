@@ -9,10 +9,22 @@ template <class Law, class Real>
 BlockView<Real> ColumnBody<Law, Real>::view(Unit unit) {
   const std::size_t place = padded_place(unit);
   const auto u = current();
-  return {{u[0] + place, u[1] + place, u[2] + place},
-          bonds_of(unit),
-          intact_.data() + first_word(unit),
-          static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
+  BlockView<Real> block{{u[0] + place, u[1] + place, u[2] + place},
+                        bonds_of(unit),
+                        intact_.data() + first_word(unit),
+                        static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
+  if (!half_stretch_.empty()) block.local = {half_stretch_.data() + place, half_stiffness_.data() + place};
+  return block;
+}
+
+template <class Law, class Real>
+template <bool observing>
+void ColumnBody<Law, Real>::sum(Unit unit, BlockSums<Real>& sums) {
+  if (half_stretch_.empty()) {
+    sum_block<Law, observing, false>(view(unit), sums);
+  } else {
+    sum_block<Law, observing, true>(view(unit), sums);
+  }
 }
 
 /// Rows of a unit, [first, past), whose motion along axis `component` the ends do not hold: clamped ends hold
@@ -82,7 +94,7 @@ template <class Law, class Real>
 void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pressure, double kick,
                                       ThreadEvents& events) {
   BlockSums<Real> sums;
-  sum_block<Law, false>(view(unit), sums);
+  sum<false>(unit, sums);
   if (sums.broken > 0) {
     events.broken += sums.broken;
     if (!damaged_ && !events.damaged) events.damaged = has_ruptured(unit);

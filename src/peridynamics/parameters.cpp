@@ -1,6 +1,8 @@
 #include "peridynamics/parameters.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -9,7 +11,7 @@
 namespace rhexis::peridynamics {
 
 ParameterList declare(Parameters& p) {
-  return {
+  ParameterList all{
       {"vessel.inner_radius",
        &p.inner_radius,
        "m",
@@ -145,6 +147,8 @@ ParameterList declare(Parameters& p) {
        "",
        {.lower = 0, .upper = 1, .lower_open = true}},
   };
+  std::ranges::copy(declare(p.scatter), std::back_inserter(all));
+  return all;
 }
 
 double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles) {
@@ -253,8 +257,8 @@ std::vector<std::string> resolve(Parameters& p) {
   resolve_load(p);
   resolve_ends(p);
 
-  std::vector<std::string> warnings;
   const double wall = p.outer_radius - p.inner_radius;
+  std::vector<std::string> warnings = resolve(p.scatter, wall, *p.spacing);
   const double across = wall / *p.spacing;
   if (across < 2.999) {
     warnings.push_back("the wall is " + text(across) +

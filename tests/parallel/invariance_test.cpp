@@ -16,6 +16,7 @@ struct Case {
   const char* ends;
   const char* precision;
   double length;
+  double scatter = 0;
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -27,7 +28,10 @@ INSTANTIATE_TEST_SUITE_P(Vessels, Invariance,
                          testing::Values(Case{"Clamped", "lattice", "clamped", "single", 3.7e-3},
                                          Case{"Short", "lattice", "free", "single", 1e-3},
                                          Case{"Periodic", "polar", "axial_periodic", "single", 3.3e-3},
-                                         Case{"Double", "polar", "sliding", "double", 2e-3}),
+                                         Case{"Double", "polar", "sliding", "double", 2e-3},
+                                         Case{"Scattered", "lattice", "clamped", "single", 3.7e-3, 0.1},
+                                         Case{"ScatteredPeriodic", "polar", "axial_periodic", "double",
+                                              3.3e-3, 0.1}),
                          [](const auto& i) { return i.param.name; });
 
 Parameters parameters(const Case& c) {
@@ -36,6 +40,8 @@ Parameters parameters(const Case& c) {
   p.ends = c.ends;
   p.bond_precision = c.precision;
   p.critical_stretch = 0.1;
+  p.scatter.critical_stretch = c.scatter;
+  p.scatter.stiffness = c.scatter;
   return p;
 }
 
