@@ -1,6 +1,8 @@
 /// ColumnBody: fields and totals at one moment.
 #pragma once
 
+#include <limits>
+
 #include "peridynamics/column_body.hpp"
 
 namespace rhexis::peridynamics {
@@ -35,7 +37,8 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   const double energy_scale = force_scale * lattice.spacing;
   const double particle_volume = lattice.volume(column);
   const double load[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
-  const double* share = profile(unit);
+  double space[block_rows];
+  const double* share = load_shares(unit, space);
   const std::size_t first = particle(unit);
   const int rows = domain_.rows_in(unit.block);
 
@@ -57,7 +60,8 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
     const double energy = energy_scale * static_cast<double>(sums.energy[lane]);
     const double damage = whole[lane] > 0 ? 1 - intact[lane] / whole[lane] : 0;
     observation_.strain_energy_density[first + lane] = energy;
-    observation_.damage[first + lane] = damage;
+    observation_.damage[first + lane] =
+        is_absent(unit, lane) ? std::numeric_limits<double>::quiet_NaN() : damage;
     strain += energy;
     totals.max_damage = std::max(totals.max_damage, damage);
     if (damage >= rupture_damage) {
@@ -76,8 +80,7 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   const std::uint16_t* words = intact_.data() + first_word(unit);
   double fracture = 0;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const std::uint16_t born = domain_.partners(unit.block, reference_bond(unit, b).row_offset);
-    const auto broken = static_cast<std::uint16_t>(born & ~words[b]);
+    const auto broken = static_cast<std::uint16_t>(born(unit, b) & ~words[b]);
     fracture += breaking_energy(unit, bonds[b], broken) * double{bonds[b].energy_weight};
   }
   totals.fracture.add(per_weight * fracture);

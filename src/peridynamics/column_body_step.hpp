@@ -54,11 +54,11 @@ void ColumnBody<Law, Real>::family_volumes(Unit unit, double (&intact)[block_row
   const std::uint16_t* words = intact_.data() + first_word(unit);
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     const unsigned now = words[b];
-    const unsigned born = domain_.partners(unit.block, reference_bond(unit, b).row_offset);
+    const unsigned first = born(unit, b);
     const double volume = bonds[b].volume;
     for (int lane = 0; lane < block_rows; ++lane) {
       intact[lane] += (now >> lane & 1u) ? volume : 0.0;
-      whole[lane] += (born >> lane & 1u) ? volume : 0.0;
+      whole[lane] += (first >> lane & 1u) ? volume : 0.0;
     }
   }
 }
@@ -105,7 +105,8 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
   const double body_force[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
   const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
   const double bond_acceleration = setup_.bond_constant * volume / setup_.density;
-  const double* share = profile(unit);
+  double space[block_rows];
+  const double* share = load_shares(unit, space);
   const double dt = setup_.time_step;
   const double fastest = 2 * lattice.spacing / dt + 4 * load_speed_;
   const auto next_u = next();

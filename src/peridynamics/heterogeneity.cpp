@@ -1,6 +1,7 @@
 #include "peridynamics/heterogeneity.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/lognormal.hpp"
 #include "core/weibull.hpp"
@@ -9,7 +10,11 @@
 
 namespace rhexis::peridynamics {
 
-Heterogeneity::Heterogeneity(const Parameters& p) {
+Heterogeneity::Heterogeneity(const Parameters& p)
+    : mid_radius_(0.5 * (p.inner_radius + p.outer_radius)), spots_(p.spots) {
+  const auto is_one = [](double factor) { return factor == 1; };
+  uniform_ = p.scatter.none() && std::ranges::all_of(spots_.critical_stretch, is_one) &&
+             std::ranges::all_of(spots_.stiffness, is_one);
   if (p.scatter.none()) return;
   field_.emplace(p.scatter.seed, *p.scatter.correlation_length);
   critical_stretch_ = marginal(p.scatter.law, p.scatter.critical_stretch);
@@ -24,10 +29,18 @@ Heterogeneity::Marginal Heterogeneity::marginal(const std::string& law, double s
 
 std::vector<WallFactors> Heterogeneity::along(double x, double y, std::span<const double> z) const {
   std::vector<WallFactors> factors(z.size());
-  if (!field_) return factors;
-  const std::vector<GaussianField::Pair> drawn = field_->along(x, y, z);
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    factors[i] = {critical_stretch_(drawn[i][0]), stiffness_(drawn[i][1])};
+  if (field_) {
+    const std::vector<GaussianField::Pair> drawn = field_->along(x, y, z);
+    for (std::size_t i = 0; i < z.size(); ++i)
+      factors[i] = {critical_stretch_(drawn[i][0]), stiffness_(drawn[i][1])};
+  }
+  const double angle = std::atan2(y, x);
+  for (std::size_t spot = 0; spot < spots_.size(); ++spot) {
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const double near = spots_.nearness(spot, mid_radius_, angle, z[i]);
+      factors[i].critical_stretch *= 1 + (spots_.critical_stretch[spot] - 1) * near;
+      factors[i].stiffness *= 1 + (spots_.stiffness[spot] - 1) * near;
+    }
   }
   return factors;
 }

@@ -1,9 +1,11 @@
-/// A wall whose properties differ from place to place: factors of mean 1 on critical stretch and stiffness,
-/// drawn by position ([scatter]). All of it is a function of the reference position, so that no rank needs to
-/// ask another.
+/// A wall whose properties differ from place to place: factors of mean 1 on critical stretch and stiffness
+/// that scatter ([scatter]), times those of spots given by place ([[spot]]). All of it is a function of the
+/// reference position, so that no rank needs to ask another.
 ///
-/// A bond takes the arithmetic mean of its two ends' factors: s0_ij = s0 (a_i + a_j)/2, c_ij = c (e_i +
-/// e_j)/2.
+/// A spot's factor f holds at its centre and is 1 + (f - 1) n elsewhere, with the nearness n of `Spots`. A
+/// bond takes the arithmetic mean of its two ends' factors:
+///
+///   s0_ij = s0 (a_i + a_j) / 2,   c_ij = c (e_i + e_j) / 2
 #pragma once
 
 #include <functional>
@@ -27,7 +29,7 @@ class Heterogeneity {
   /// Of resolved parameters.
   explicit Heterogeneity(const Parameters& p);
 
-  bool uniform() const { return !field_; }
+  bool uniform() const { return uniform_; }
 
   /// Factors at (x, y, z[i]), m.
   std::vector<WallFactors> along(double x, double y, std::span<const double> z) const;
@@ -40,6 +42,9 @@ class Heterogeneity {
   using Marginal = std::function<double(double)>;
   static Marginal marginal(const std::string& law, double spread);
 
+  bool uniform_ = true;
+  double mid_radius_ = 0;  ///< m
+  Spots spots_;
   std::optional<GaussianField> field_;
   Marginal critical_stretch_, stiffness_;
 };

@@ -23,7 +23,8 @@ namespace rhexis::peridynamics {
 /// so the result does not depend on ranks.
 class OpeningGauge {
  public:
-  OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);
+  OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm,
+               const ThinSpots& thin_spots = {});
 
   /// m2. Collective.
   double area() const;
@@ -31,8 +32,9 @@ class OpeningGauge {
  private:
   const Body* body_;
   parallel::Communicator comm_;
+  ThinSpots thin_spots_;
   double row_spacing_, radius_quantum_;
-  double widest_intact_gap_;            ///< rad
+  std::vector<double> intact_gap_;      ///< rad, widest in each row of the reference state
   std::size_t bins_;                    ///< of angle, per row
   std::size_t sectors_;                 ///< of the cross-section, each with columns in it
   std::vector<std::size_t> sector_of_;  ///< [columns]

@@ -148,6 +148,7 @@ ParameterList declare(Parameters& p) {
        {.lower = 0, .upper = 1, .lower_open = true}},
   };
   std::ranges::copy(declare(p.scatter), std::back_inserter(all));
+  std::ranges::copy(declare(p.spots), std::back_inserter(all));
   return all;
 }
 
@@ -259,6 +260,7 @@ std::vector<std::string> resolve(Parameters& p) {
 
   const double wall = p.outer_radius - p.inner_radius;
   std::vector<std::string> warnings = resolve(p.scatter, wall, *p.spacing);
+  std::ranges::move(check(p.spots, p.length, wall, *p.spacing), std::back_inserter(warnings));
   const double across = wall / *p.spacing;
   if (across < 2.999) {
     warnings.push_back("the wall is " + text(across) +

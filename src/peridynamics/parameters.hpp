@@ -48,9 +48,11 @@ struct Parameters {
   double end_time = 0;  ///< s
 
   Scatter scatter;
+  Spots spots;
 };
 
-/// The keys of sections vessel, material, scatter, discretisation, boundary, load and time, bound to `p`.
+/// The keys of sections vessel, material, scatter, spot, discretisation, boundary, load and time, bound to
+/// `p`.
 ParameterList declare(Parameters& p);
 
 /// Checks what one key alone cannot tell (radii, horizon, table, ...) and fills spacing, horizon, ramp_time,
