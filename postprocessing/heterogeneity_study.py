@@ -24,11 +24,11 @@ import matplotlib.pyplot as pyplot
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-RAMP_S, PRESSURE_PA = 2e-3, 238e3
-LENGTH_M, SPACING_M = 6e-3, 1e-4
+RAMP_S, PRESSURE_PA = 1.8e-3, 320e3
+LENGTH_M, SPACING_M = 4e-3, 1e-4
 VESSEL = ["discretisation.cross_section=polar", "load.layer=consistent", "load.venting=orifice",
           "boundary.ends=axial_periodic", f"vessel.length={LENGTH_M} m", f"discretisation.spacing={SPACING_M} m",
-          f"load.ramp_time={RAMP_S} s", "time.step=auto", f"time.end={RAMP_S} s", "insitu.enabled=false",
+          f"load.pressure={PRESSURE_PA} Pa", f"load.ramp_time={RAMP_S} s", "time.step=auto", f"time.end={RAMP_S} s", "insitu.enabled=false",
           "output.fields=[\"damage\"]", "output.every_steps=1000000"]
 RUPTURED = 0.2  # damage
 
@@ -76,7 +76,7 @@ def measure(program, folder, case, seed):
     results = json.loads((folder / "run.json").read_text(encoding="utf-8"))["results"]
     with h5py.File(folder / "particles.h5") as file:
         points = file["reference_position"][:]
-        damage = file["damage"][max(file["damage"])][:]
+        damage = file["damage"][max(filter(str.isdigit, file["damage"]))][:]
     number, longest = cracks(points[damage >= RUPTURED])
     onset = results["rupture_onset_s"]
     broken = int((folder / "history.csv").read_text(encoding="utf-8").splitlines()[-1].split(",")[5])

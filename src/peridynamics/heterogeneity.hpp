@@ -6,6 +6,8 @@
 /// bond takes the arithmetic mean of its two ends' factors:
 ///
 ///   s0_ij = s0 (a_i + a_j) / 2,   c_ij = c (e_i + e_j) / 2
+///
+/// The random field knows no period: where ends are axial_periodic, factors jump where they meet.
 #pragma once
 
 #include <functional>
@@ -42,7 +44,7 @@ class Heterogeneity {
   using Marginal = std::function<double(double)>;
   static Marginal marginal(const std::string& law, double spread);
 
-  bool uniform_ = true;
+  bool uniform_ = true, uniformly_stiff_ = true;
   double mid_radius_ = 0;  ///< m
   Spots spots_;
   std::optional<GaussianField> field_;

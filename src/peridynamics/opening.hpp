@@ -13,11 +13,11 @@ namespace rhexis::peridynamics {
 ///
 /// Each axial row looks at the angles of its particles, all through the wall: a run of angles without any
 /// particle is a gap. Uniform widening keeps angles, so an intact wall has exactly the gaps of its reference
-/// state; a gap counts once it is half as wide again as the widest of those, and its excess over that width
-/// times the row's mean radius times the row spacing is its area. Exact to about one spacing of width per
-/// row. A tear across the axis leaves no such gap, but rows that lie apart: in each sector of the wall, the
-/// distance between one row's farthest particle and the next row's nearest counts in the same way, once it is
-/// half as wide again as the row spacing.
+/// state; a gap counts once it is half as wide again as the widest of those in its row, and its excess over
+/// that width times the row's mean radius times the row spacing is its area. Exact to about one spacing of
+/// width per row. A tear across the axis leaves no such gap, but rows that lie apart: in each sector of the
+/// wall, the distance between one row's farthest particle and the next row's nearest counts in the same way,
+/// once it is half as wide again as the row spacing.
 ///
 /// Angles are sorted into bins that ranks merge by a bitwise or, and rows have a least and a greatest height,
 /// so the result does not depend on ranks.
