@@ -21,6 +21,7 @@ from paraview.simple import (
 
 # What the program should compute and send (a list of literal names, on one or several lines). Without this line all:
 # displacement (m), velocity (m/s), force_density (N/m3), damage (0 ... 1), strain_energy_density (J/m3).
+# Damage is not a number where a thin spot of the wall leaves no particle: a threshold on it hides these.
 # Of a network (channel "network", lines; see network.py) a list network_fields says the same: pressure (Pa, at points),
 # flow (m3/s), radius (m), generation, kind (0 artery, 1 vein, 2 unknown), wall_shear_stress (Pa), hoop_strain.
 fields = ["damage"]

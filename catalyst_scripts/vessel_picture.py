@@ -92,8 +92,10 @@ class VesselPicture:
 
     def rows(self, particles, step, time_s, pressure_pa=None, note=""):
         """The picture of this moment [HEIGHT, WIDTH, 3] on the first rank, None on the others. Collective."""
-        position, damage = column(particles, "position"), column(particles, "damage")
-        displacement_mm = 1e3 * numpy.sqrt((column(particles, "displacement") ** 2).sum(axis=1))
+        damage = column(particles, "damage")
+        there = ~numpy.isnan(damage)  # where a thin spot leaves no particle, its damage is not a number
+        position, damage = column(particles, "position")[there], damage[there]
+        displacement_mm = 1e3 * numpy.sqrt((column(particles, "displacement")[there] ** 2).sum(axis=1))
         top = self._displacement_range(displacement_mm)
         seen = self._seen(position)
         table = numpy.column_stack([position[seen], displacement_mm[seen], damage[seen]]).astype(numpy.float32)

@@ -44,7 +44,8 @@ double body_bytes(const Configuration& c, const Lattice& lattice, const BondFami
   const double real = c.vessel.bond_precision == "double" ? sizeof(double) : sizeof(float);
   const auto particles = static_cast<double>(lattice.particles());
   const double blocks = static_cast<double>((lattice.rows + 15) / 16);
-  const double state = particles * (6 * sizeof(double) + 6 * real);
+  const double local = peridynamics::Heterogeneity(c.vessel).uniform() ? 0 : 2 * real;
+  const double state = particles * (6 * sizeof(double) + 6 * real + local);
   const double bits = static_cast<double>(families.bonds.size()) * blocks * sizeof(std::uint16_t);
   // Families of all columns on every rank, and the kernel's tables of them once.
   const double tables =

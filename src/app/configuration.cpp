@@ -185,13 +185,14 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
            has_section);
   }
   for (const input::Entry& entry : document.entries) {
-    const std::string section = input::section_of(entry.key);
+    const std::string key = input::without_table(entry.key);
+    const std::string section = input::section_of(key);
     refuse(document.place(entry), "section [" + section + "]", section, has_section);
     if (model == "coupled" && network_knows(entry.key))
       throw InputError(document.place(entry) + ": the network says this of a coupled vessel");
     if (model == "coupled" && vessel_knows(entry.key))
       throw InputError(document.place(entry) + ": section [material] says this of a coupled network");
-    refuse(document.place(entry), "this key", entry.key, has_key);
+    refuse(document.place(entry), "this key", key, has_key);
   }
   ParameterList all = declare_scene(c);
   append(all, *chosen);

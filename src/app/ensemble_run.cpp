@@ -52,6 +52,9 @@ std::string difference(const Json& earlier, const Json& now) {
                            entry["written"].dump());
     }
   }
+  for (const auto& [section, keys] : earlier.items()) {
+    if (!now.contains(section)) return section + " was given, and now is not";
+  }
   return {};
 }
 

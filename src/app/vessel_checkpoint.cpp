@@ -1,9 +1,13 @@
 // Checkpoints of a vessel's run: what they hold, and going on from one.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "app/stopwatch.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
+#include "input/catalogue.hpp"
 #include "output/checkpoint.hpp"
 
 namespace rhexis::app {
@@ -20,9 +24,10 @@ output::WordBlock word_block(const peridynamics::Body& body) {
 /// a network says what the vessel is like, that.
 std::string body_description(const Configuration& c) {
   nlohmann::ordered_json values;
-  for (const char* section : {"vessel", "material", "discretisation", "boundary"}) {
-    if (!c.record.contains(section)) continue;
-    for (const auto& [key, entry] : c.record.at(section).items()) values[section][key] = entry.at("value");
+  constexpr std::array of_the_body = {"vessel", "material", "scatter", "spot", "discretisation", "boundary"};
+  for (const auto& [section, keys] : c.record.items()) {
+    if (std::ranges::find(of_the_body, input::without_table(section)) == of_the_body.end()) continue;
+    for (const auto& [key, entry] : keys.items()) values[section][key] = entry.at("value");
   }
   if (c.is_coupled()) {
     values["vessel"] = {{"inner_radius", c.vessel.inner_radius},

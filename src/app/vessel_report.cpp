@@ -18,6 +18,16 @@ void VesselRun::say_header() {
                                          grouped(*results_.particles), lattice_.section.size(), lattice_.rows,
                                          v.cross_section, quantity(lattice_.spacing, "m"),
                                          quantity(lattice_.horizon, "m")));
+  const peridynamics::Scatter& scatter = v.scatter;
+  if (!scatter.none()) {
+    console_.item("scatter", fmt::format("critical stretch {:g} %, stiffness {:g} % ({}) over {}, seed {}",
+                                         100 * scatter.critical_stretch, 100 * scatter.stiffness, scatter.law,
+                                         quantity(*scatter.correlation_length, "m"), scatter.seed));
+  }
+  if (v.spots.size() > 0) {
+    console_.item("spots", fmt::format("{}, which leave out {} particles", v.spots.size(),
+                                       grouped(lattice_.particles() - *results_.particles)));
+  }
   console_.item("bonds", fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
                                      *results_.family_max, v.bond_precision));
   console_.item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,

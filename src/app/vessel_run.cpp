@@ -61,15 +61,17 @@ void VesselRun::build() {
   lattice_ = peridynamics::make_lattice(c_.vessel);
   peridynamics::BondFamilies families = peridynamics::make_families(c_.vessel, lattice_);
   const bool periodic = peridynamics::end_condition(c_.vessel) == peridynamics::EndCondition::axial_periodic;
-  results_.particles = lattice_.particles();
-  results_.bonds = peridynamics::count_bonds(lattice_, families, periodic);
   results_.family_max = peridynamics::largest_family(lattice_, families, periodic);
   results_.time_step_s = c_.time_step;
   results_.stable_time_step_s = c_.stable_time_step;
-  body_ = peridynamics::make_body(
-      peridynamics::make_setup(c_.vessel, lattice_, std::move(families), c_.time_step), comm_);
+  peridynamics::BodySetup setup =
+      peridynamics::make_setup(c_.vessel, lattice_, std::move(families), c_.time_step);
+  const peridynamics::ThinSpots thin_spots = setup.thin_spots;
+  body_ = peridynamics::make_body(std::move(setup), comm_);
+  results_.particles = lattice_.particles() - thin_spots.absent();
+  results_.bonds = body_->bonds();
   source_ = std::make_unique<peridynamics::ParticleSource>(*body_);
-  gauge_ = std::make_unique<peridynamics::OpeningGauge>(lattice_, *body_, comm_);
+  gauge_ = std::make_unique<peridynamics::OpeningGauge>(lattice_, *body_, comm_, thin_spots);
   if (coupling_ == nullptr) return;
   lumen_ = std::make_unique<peridynamics::LumenGauge>(lattice_, *body_, comm_);
   take_load();

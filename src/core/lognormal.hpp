@@ -44,6 +44,10 @@ class Lognormal {
     const double value = lower(share / 2);
     return upper ? upper_of(value) : value;
   }
+  /// The value that stands where `z` stands in the standard normal distribution.
+  double of_normal(double z) const {
+    return std::exp(static_cast<double>(sigma_) * z - static_cast<double>(variance_) / 2);
+  }
 
  private:
   long double variance_, sigma_;  ///< of the logarithm

@@ -47,6 +47,9 @@ struct Parameter {
   std::string source = {};  ///< paper and equation or table, where there is one
   Range range = {};         ///< of each number
   std::vector<std::string> choices = {};  ///< allowed words of a text; empty: any
+  /// Of a section that may stand any number of times, [[section]]: `target` is a vector<double>* that gets
+  /// one number from each.
+  bool repeated = false;
 };
 
 using ParameterList = std::vector<Parameter>;

@@ -20,6 +20,7 @@ std::optional<Sample> simulate(const Parameters& p, const peridynamics::Paramete
   sample.factors = draw_wall(p, wall);
   peridynamics::Parameters vessel = with_wall(v, sample.factors);
   vessel.pressure = pressure;
+  vessel.scatter.seed += wall;
 
   const peridynamics::Lattice lattice = peridynamics::make_lattice(vessel);
   peridynamics::BondFamilies families = peridynamics::make_families(vessel, lattice);

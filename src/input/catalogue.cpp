@@ -19,6 +19,21 @@ std::string name_of(std::string_view key) {
   return std::string(dot == std::string_view::npos ? key : key.substr(dot + 1));
 }
 
+std::string without_table(std::string_view key) {
+  const auto open = key.find('['), close = key.find(']');
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open)
+    return std::string(key);
+  return std::string(key.substr(0, open)) + std::string(key.substr(close + 1));
+}
+
+Parameter in_table(const Parameter& repeated, std::size_t number, double* target) {
+  Parameter parameter = repeated;
+  parameter.key = fmt::format("{}[{}].{}", section_of(repeated.key), number, name_of(repeated.key));
+  parameter.target = target;
+  parameter.repeated = false;
+  return parameter;
+}
+
 std::vector<std::string> sections_of(const ParameterList& parameters) {
   std::vector<std::string> sections;
   for (const Parameter& parameter : parameters) {
@@ -33,6 +48,12 @@ void check_section(const ParameterList& parameters, std::string_view section) {
   if (std::ranges::find(sections, section) != sections.end()) return;
   throw InputError(fmt::format("there is no section '{}'{} (sections: {})", section,
                                did_you_mean(closest(section, sections)), fmt::join(sections, ", ")));
+}
+
+bool is_repeated(const ParameterList& parameters, std::string_view section) {
+  return std::ranges::any_of(parameters, [&](const Parameter& parameter) {
+    return parameter.repeated && section_of(parameter.key) == section;
+  });
 }
 
 const Parameter* find(const ParameterList& parameters, std::string_view key) {

@@ -16,11 +16,20 @@ std::string section_of(std::string_view key);
 /// "length" of "vessel.length"; all of it where there is no dot.
 std::string name_of(std::string_view key);
 
+/// "spot.radius" of "spot[2].radius", the second table's of a section that is repeated; others as they are.
+std::string without_table(std::string_view key);
+
+/// What a repeated parameter is in one of its tables, `number` from 1; its value goes to `target`.
+Parameter in_table(const Parameter& repeated, std::size_t number, double* target);
+
 /// The sections in the order of their first declaration.
 std::vector<std::string> sections_of(const ParameterList& parameters);
 
 /// @throws InputError where `section` is none, with the list of sections.
 void check_section(const ParameterList& parameters, std::string_view section);
+
+/// Whether `section` is one that may be repeated.
+bool is_repeated(const ParameterList& parameters, std::string_view section);
 
 const Parameter* find(const ParameterList& parameters, std::string_view key);
 

@@ -67,17 +67,17 @@ class Flattener {
     for (const auto& [key, node] : root) {
       const std::string name(key.str());
       check_name(name, key);
-      if (node.is_array_of_tables())
-        fail(key, fmt::format("[[{0}]] is a list of sections; write [{0}], once", name));
-      const auto* section = node.as_table();
-      if (!section) {
+      if (const auto* section = node.as_table()) {
+        document_.sections.push_back({name, static_cast<int>(key.source().begin.line)});
+        add_section(name, *section);
+      } else if (node.is_array_of_tables()) {
+        int number = 0;
+        for (const toml::node& element : *node.as_array()) {
+          document_.sections.push_back({name, static_cast<int>(element.source().begin.line), ++number});
+          add_section(fmt::format("{}[{}]", name, number), *element.as_table());
+        }
+      } else {
         add_entry(name, key, node);
-        continue;
-      }
-      document_.sections.push_back({name, static_cast<int>(key.source().begin.line)});
-      for (const auto& [inner_key, inner_node] : *section) {
-        check_name(std::string(inner_key.str()), inner_key);
-        add_entry(fmt::format("{}.{}", name, inner_key.str()), inner_key, inner_node);
       }
     }
     std::ranges::sort(document_.sections, {}, &Section::line);
@@ -98,6 +98,13 @@ class Flattener {
            fmt::format("the name {} is not one of letters, digits, _ and -; write [section] and below it "
                        "name = value",
                        in_quotes(name)));
+  }
+
+  void add_section(const std::string& name, const toml::table& section) {
+    for (const auto& [key, node] : section) {
+      check_name(std::string(key.str()), key);
+      add_entry(fmt::format("{}.{}", name, key.str()), key, node);
+    }
   }
 
   void add_entry(std::string name, const toml::key& key, const toml::node& node) {

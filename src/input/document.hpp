@@ -24,7 +24,8 @@ struct Value {
 std::string written(const Value& value);
 
 struct Entry {
-  std::string key;  ///< "section.name", or what the user wrote instead of that
+  std::string key;  ///< "section.name", "section[2].name" below the second [[section]], or what the user
+                    ///< wrote instead of that
   Value value;
   int line = 0;  ///< from 1; 0 where the entry comes from --set
   int column = 0;
@@ -36,6 +37,7 @@ struct Entry {
 struct Section {
   std::string name;
   int line = 0;
+  int table = 0;  ///< from 1 where written [[name]], which may be repeated; 0 for [name]
 };
 
 struct Document {

@@ -27,11 +27,16 @@ struct Columns {
   std::size_t type = 0;
 };
 
+/// What a table of a repeated section takes.
+Parameter as_one(const Parameter& parameter) {
+  return parameter.repeated ? in_table(parameter, 1, nullptr) : parameter;
+}
+
 Columns columns_of(const ParameterList& parameters) {
   Columns columns;
   for (const Parameter& parameter : parameters) {
     columns.name = std::max(columns.name, name_of(parameter.key).size());
-    columns.type = std::max(columns.type, describe_type(parameter).size());
+    columns.type = std::max(columns.type, describe_type(as_one(parameter)).size());
   }
   return columns;
 }
@@ -43,7 +48,8 @@ std::string default_and_allowed(const Parameter& parameter) {
          (allowed.empty() ? "" : "; allowed: " + allowed);
 }
 
-std::string describe_key(const Parameter& parameter, const Columns& columns) {
+std::string describe_key(const Parameter& declared, const Columns& columns) {
+  const Parameter parameter = as_one(declared);
   const std::size_t second = margin + columns.name + 2;
   const std::size_t third = second + columns.type + 2;
   const std::string source = parameter.source.empty() ? "" : fmt::format(" ({})", parameter.source);
@@ -61,7 +67,8 @@ std::string describe_keys(const ParameterList& parameters, std::string_view sect
   std::string text = wrapped(introduction, width, 0) + "\n";
   for (const std::string& name : sections_of(parameters)) {
     if (!section.empty() && name != section) continue;
-    text += fmt::format("\n[{}]\n", name);
+    text += is_repeated(parameters, name) ? fmt::format("\n[[{}]]  (any number of them)\n", name)
+                                          : fmt::format("\n[{}]\n", name);
     for (const Parameter& parameter : parameters)
       if (section_of(parameter.key) == name) text += describe_key(parameter, columns);
   }

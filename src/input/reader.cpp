@@ -17,6 +17,11 @@ void check_sections(const Document& document, const ParameterList& parameters) {
   for (const Section& section : document.sections) {
     try {
       check_section(parameters, section.name);
+      const bool repeated = is_repeated(parameters, section.name);
+      if (section.table > 0 && !repeated)
+        throw InputError(fmt::format("[[{0}]] is a list of sections; write [{0}], once", section.name));
+      if (section.table == 0 && repeated)
+        throw InputError(fmt::format("there may be several of these; write [[{}]]", section.name));
     } catch (const InputError& error) {
       throw InputError(
           fmt::format("{}:{}: [{}]: {}", document.file, section.line, section.name, error.what()));
@@ -24,10 +29,11 @@ void check_sections(const Document& document, const ParameterList& parameters) {
   }
 }
 
+/// `parameters`: those that the document may set; `declared`: all, for advice.
 [[noreturn]] void refuse_unknown(const Document& document, const Entry& entry,
-                                 const ParameterList& parameters) {
-  const std::string section = section_of(entry.key);
-  const auto sections = sections_of(parameters);
+                                 const ParameterList& parameters, const ParameterList& declared) {
+  const std::string section = section_of(without_table(entry.key));
+  const auto sections = sections_of(declared);
   const bool known_section = std::ranges::find(sections, section) != sections.end();
   const std::string problem =
       section.empty() ? "a key stands in a section, as in section.name" : "there is no such key";
@@ -41,11 +47,14 @@ void check_sections(const Document& document, const ParameterList& parameters) {
 
 [[noreturn]] void refuse_missing(const Document& document, const Parameter& parameter) {
   const std::string allowed = describe_allowed(parameter);
-  throw InputError(fmt::format("{}: {} is missing; under [{}] write for example {} = {} ({}{}). Meaning: {}",
-                               document.file, parameter.key, section_of(parameter.key),
-                               name_of(parameter.key), example(parameter), describe_type(parameter),
-                               allowed.empty() ? "" : "; allowed: " + allowed, parameter.meaning),
-                   parameter.key);
+  const std::string section = section_of(without_table(parameter.key));
+  const bool in_a_list = without_table(parameter.key) != parameter.key;
+  throw InputError(
+      fmt::format("{}: {} is missing; under {} write for example {} = {} ({}{}). Meaning: {}", document.file,
+                  parameter.key, in_a_list ? "its [[" + section + "]]" : "[" + section + "]",
+                  name_of(parameter.key), example(parameter), describe_type(parameter),
+                  allowed.empty() ? "" : "; allowed: " + allowed, parameter.meaning),
+      parameter.key);
 }
 
 SiValue stored(const Parameter& parameter) {
@@ -84,6 +93,23 @@ ResolvedValue resolve_default(const Document& document, const Parameter& paramet
                  fmt::format("{}: {} (default {})", document.file, parameter.key, shortened(written(value))));
 }
 
+/// Parameters with one for each table of the document in place of each that is repeated.
+ParameterList with_tables(const Document& document, const ParameterList& declared) {
+  ParameterList parameters;
+  for (const Parameter& parameter : declared) {
+    if (!parameter.repeated) {
+      parameters.push_back(parameter);
+      continue;
+    }
+    auto& values = *std::get<std::vector<double>*>(parameter.target);
+    const std::string section = section_of(parameter.key);
+    values.resize(static_cast<std::size_t>(std::ranges::count(document.sections, section, &Section::name)));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      parameters.push_back(in_table(parameter, i + 1, &values[i]));
+  }
+  return parameters;
+}
+
 struct ToJson {
   nlohmann::ordered_json operator()(std::monostate) const { return nullptr; }
   nlohmann::ordered_json operator()(const List& list) const {
@@ -96,12 +122,13 @@ struct ToJson {
 
 }  // namespace
 
-Resolved read(const Document& document, const ParameterList& parameters) {
-  check_sections(document, parameters);
+Resolved read(const Document& document, const ParameterList& declared) {
+  check_sections(document, declared);
+  const ParameterList parameters = with_tables(document, declared);
   std::vector<ResolvedValue> given;
   for (const Entry& entry : document.entries) {
     const Parameter* parameter = find(parameters, entry.key);
-    if (!parameter) refuse_unknown(document, entry, parameters);
+    if (!parameter) refuse_unknown(document, entry, parameters, declared);
     given.push_back(
         resolve(*parameter, entry.value, entry.from_file() ? "file" : "--set", document.place(entry)));
   }

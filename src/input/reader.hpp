@@ -38,11 +38,12 @@ struct Resolved {
   std::vector<ResolvedValue> values;
 };
 
-/// Fills the target of every parameter from the document, or from its default.
+/// Fills the target of every parameter from the document, or from its default. Repeated ones are resolved
+/// table by table, as keys "section[1].name", ...
 /// @throws InputError, complete with place, key and value, for the first of these: an unknown section; then,
 /// in the
 ///         order of the file, an unknown key or a value that its key does not take; then a missing key.
-Resolved read(const Document& document, const ParameterList& parameters);
+Resolved read(const Document& document, const ParameterList& declared);
 
 /// `error`, which the physics threw about values that do not fit together, with place and value in front.
 InputError located(const InputError& error, const Resolved& resolved);

@@ -36,6 +36,7 @@ struct Kind {
 constexpr std::array kinds{
     Kind{"m", "a length", "1.5", "mm", "um"},
     Kind{"s", "a time", "500", "ns", "ms"},
+    Kind{"rad", "an angle", "30", "deg", "rad"},
     Kind{"kg", "a mass", "1", "g", "kg"},
     Kind{"K", "a temperature", "37", "degC", "K"},
     Kind{"Pa", "a pressure", "238", "kPa", "mmHg"},
@@ -67,9 +68,10 @@ const ut_system* unit_system() {
     if (!read)
       throw RunError(
           "cannot read the UDUNITS-2 unit database (Debian: libudunits2-data; or set UDUNITS2_XML_PATH)");
-    // Haemodynamics writes these two; UDUNITS knows them by name only.
+    // People write these; UDUNITS knows them by name only.
     ut_map_symbol_to_unit("P", UT_ASCII, Unit{ut_get_unit_by_name(read.get(), "poise")}.get());
     ut_map_symbol_to_unit("dyn", UT_ASCII, Unit{ut_get_unit_by_name(read.get(), "dyne")}.get());
+    ut_map_symbol_to_unit("deg", UT_ASCII, Unit{ut_get_unit_by_name(read.get(), "degree")}.get());
     return read;
   }();
   return system.get();
@@ -178,7 +180,8 @@ double to_si(std::string_view text, std::string_view unit) {
     throw InputError(
         fmt::format("'{}' is not a known unit; write {}", written.unit, example_with(written.digits, unit)));
   if (!same_dimension(given.get(), expected.get())) {
-    const Kind* kind = kind_of(given.get());
+    // Of what has no dimension, not all is an angle.
+    const Kind* kind = ut_is_dimensionless(given.get()) ? nullptr : kind_of(given.get());
     throw InputError(
         fmt::format("'{}' {}, but {} is expected, {}", written.unit,
                     kind ? fmt::format("measures {}", kind->noun) : "is a unit of something else",

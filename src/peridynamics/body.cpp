@@ -26,6 +26,8 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families
   setup.energy_scale =
       std::max(p.young_modulus * p.critical_stretch * p.critical_stretch, p.pressure) * volume;
   setup.double_bonds = p.bond_precision == "double";
+  setup.heterogeneity = Heterogeneity(p);
+  setup.thin_spots = ThinSpots(p, setup.lattice, setup.layer);
   return setup;
 }
 

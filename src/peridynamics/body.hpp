@@ -16,7 +16,8 @@
 #include "core/field_view.hpp"
 #include "parallel/communicator.hpp"
 #include "peridynamics/bond_family.hpp"
-#include "peridynamics/pressure_layer.hpp"
+#include "peridynamics/heterogeneity.hpp"
+#include "peridynamics/thin_spots.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -36,7 +37,7 @@ struct Observation {
   std::array<std::vector<double>, 3> velocity;       ///< m/s
   std::array<std::vector<double>, 3> force_density;  ///< N/m3: bonds and pressure
   std::vector<double> strain_energy_density;         ///< J/m3
-  std::vector<double> damage;                        ///< Eq. (6), 0..1
+  std::vector<double> damage;  ///< Eq. (6), 0..1; not a number where thin spots leave no particle
 };
 
 /// Sums over the whole body (all ranks), independent of the partition. SI units.
@@ -93,6 +94,8 @@ class Body {
   /// Largest |u|, m. Collective.
   virtual double max_displacement() const = 0;
 
+  /// Undirected bonds that the whole body was born with. Collective.
+  virtual std::int64_t bonds() const = 0;
   /// Directed bond evaluations so far, on this rank.
   virtual std::int64_t bond_evaluations() const = 0;
 
@@ -124,6 +127,8 @@ struct BodySetup {
   double time_step = 0;     ///< s
   double energy_scale = 0;  ///< J, order of magnitude of the energies that will occur
   bool double_bonds = false;
+  Heterogeneity heterogeneity = {};
+  ThinSpots thin_spots = {};
 };
 
 /// The setup that resolved parameters describe.

@@ -20,6 +20,14 @@
 
 namespace rhexis::peridynamics {
 
+/// Properties of particles by place, where the wall is not uniform; padded as displacement is. A bond has the
+/// sum of its ends' halves: the same digits from both, so both still break it in the same step.
+template <class Real>
+struct LocalProperties {
+  const Real* half_stretch = nullptr;    ///< half of the critical stretch
+  const Real* half_stiffness = nullptr;  ///< half of the factor on the bond constant
+};
+
 /// A bond as the kernel wants it; 32 bytes in single precision.
 template <class Real>
 struct BondConstants {
@@ -36,8 +44,9 @@ template <class Real>
 struct BlockView {
   const Real* u[3];  ///< padded displacement, at the block's first row
   std::span<const BondConstants<Real>> bonds;
-  std::uint16_t* intact;  ///< one word per bond, bit k: bond of row k exists and is unbroken
-  Real breaking_t;
+  std::uint16_t* intact;             ///< one word per bond, bit k: bond of row k exists and is unbroken
+  Real breaking_t;                   ///< of a uniform wall
+  LocalProperties<Real> local = {};  ///< of one that is not, at the block's first row
 };
 
 /// Sums over each row's family.
@@ -80,17 +89,23 @@ HWY_INLINE std::uint16_t bits_of(D d, hn::Mask<D> mask, std::size_t first_lane) 
 }  // namespace detail
 
 /// Breaks what is stretched too far, then adds the forces of what is left. With `observing` also the strain
-/// energy (half of each bond's, its other half belongs to the other end).
-template <class Law, bool observing, class Real>
+/// energy (half of each bond's, its other half belongs to the other end). Only a `heterogeneous` wall pays
+/// for properties by place.
+template <class Law, bool observing, bool heterogeneous, class Real>
 HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::CappedTag<Real, parallel::block_rows> d;
   using V = hn::Vec<decltype(d)>;
-  const V breaking_t = hn::Set(d, block.breaking_t);
+  const V uniform_breaking_t = hn::Set(d, block.breaking_t);
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
     const V ux = hn::LoadU(d, block.u[0] + lane);
     const V uy = hn::LoadU(d, block.u[1] + lane);
     const V uz = hn::LoadU(d, block.u[2] + lane);
+    V half_stretch = hn::Zero(d), half_stiffness = hn::Zero(d);
+    if constexpr (heterogeneous) {
+      half_stretch = hn::LoadU(d, block.local.half_stretch + lane);
+      half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
+    }
     V fx = hn::Zero(d), fy = hn::Zero(d), fz = hn::Zero(d), energy = hn::Zero(d);
     std::uint16_t* intact = block.intact;
     for (const BondConstants<Real>& bond : block.bonds) {
@@ -111,6 +126,11 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
                              hn::MulAdd(eta_y, hn::Add(y_y, xi_y), hn::Mul(eta_x, hn::Add(y_x, xi_x))));
       const V t = hn::Mul(q, hn::Set(d, bond.inverse_length2));
 
+      V breaking_t = uniform_breaking_t;
+      if constexpr (heterogeneous) {
+        const V stretch = hn::Add(half_stretch, hn::LoadU(d, block.local.half_stretch + there));
+        breaking_t = Law::breaking_t(d, stretch);
+      }
       const auto broken = hn::And(present, hn::Ge(t, breaking_t));
       if (HWY_UNLIKELY(!hn::AllFalse(d, broken))) {
         const std::uint16_t bits = detail::bits_of(d, broken, lane);
@@ -118,13 +138,19 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
         sums.broken += std::popcount(bits);
       }
       const auto pulling = hn::AndNot(broken, present);
-      const V g = Law::force_factor(d, t);
+      V stiffness = hn::Set(d, Real{1});
+      V g = Law::force_factor(d, t);
+      if constexpr (heterogeneous) {
+        stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + there));
+        g = hn::Mul(g, stiffness);
+      }
       const V k = hn::IfThenElseZero(pulling, hn::Mul(g, hn::Set(d, bond.weight)));
       fx = hn::MulAdd(k, y_x, fx);
       fy = hn::MulAdd(k, y_y, fy);
       fz = hn::MulAdd(k, y_z, fz);
       if constexpr (observing) {
-        const V w = hn::Mul(Law::energy_factor(d, t), hn::Set(d, bond.energy_weight));
+        V w = hn::Mul(Law::energy_factor(d, t), hn::Set(d, bond.energy_weight));
+        if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
         energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
       }
     }

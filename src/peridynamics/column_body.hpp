@@ -68,11 +68,13 @@ class ColumnBody final : public Body {
         INT32_MAX) {
       throw RunError("the body is too large for " + std::to_string(comm_.size()) + " rank(s); use more");
     }
-    make_bonds();
-    make_units();
     for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c) {
       largest_load_ = std::max(largest_load_, std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
     }
+    make_local_properties();
+    make_thin_spots();
+    make_bonds();
+    make_units();
     set_axial_profile(std::vector<double>(static_cast<std::size_t>(domain_.layout().rows), 1.0));
     const auto particles = static_cast<std::size_t>(domain_.layout().local_count());
     for (int k = 0; k < 3; ++k) {
@@ -87,13 +89,14 @@ class ColumnBody final : public Body {
 
   const PointLayout& layout() const override { return domain_.layout(); }
   std::array<std::span<const double>, 3> displacement() const override { return {u_[0], u_[1], u_[2]}; }
+  std::int64_t bonds() const override { return comm_.all_reduce(born_directed_, parallel::Reduce::sum) / 2; }
   std::int64_t bond_evaluations() const override { return bond_evaluations_; }
 
   std::array<double, 3> reference_position(std::int64_t column, std::int64_t row) const override {
     const PointLayout& l = domain_.layout();
     const auto c = static_cast<std::size_t>(l.first_column + column);
     return {setup_.lattice.section.x[c], setup_.lattice.section.y[c],
-            (static_cast<double>(l.first_row + row) + 0.5) * setup_.lattice.row_spacing};
+            setup_.lattice.height(l.first_row + row)};
   }
 
   void set_state(const std::array<std::vector<double>, 3>& displacement,
@@ -133,9 +136,13 @@ class ColumnBody final : public Body {
   std::size_t particle(Unit unit) const {
     return static_cast<std::size_t>(unit.slot * domain_.layout().row_count + unit.block * block_rows);
   }
-  /// Of a unit's rows.
-  const double* profile(Unit unit) const {
-    return profile_.data() + domain_.layout().first_row + unit.block * block_rows;
+  /// The load of a unit's rows relative to the layer's; may be put into `space`.
+  const double* load_shares(Unit unit, double (&space)[block_rows]) const {
+    const double* profile = profile_.data() + domain_.layout().first_row + unit.block * block_rows;
+    if (load_share_.empty()) return profile;
+    const double* own = load_share_.data() + particle(unit);
+    for (int lane = 0; lane < domain_.rows_in(unit.block); ++lane) space[lane] = profile[lane] * own[lane];
+    return space;
   }
   std::size_t padded_place(Unit unit) const {
     return domain_.padded(static_cast<std::size_t>(unit.slot)) +
@@ -150,6 +157,20 @@ class ColumnBody final : public Body {
     const std::int64_t bonds = first_bond_[unit.slot + 1] - first_bond_[unit.slot];
     return static_cast<std::size_t>(first_bond_[unit.slot] * domain_.blocks() + unit.block * bonds);
   }
+  bool is_absent(Unit unit, int lane) const {
+    return !absent_.empty() && absent_[padded_place(unit) + static_cast<std::size_t>(lane)] != 0;
+  }
+  /// Rows of a unit that its column's bond `b` was born in.
+  std::uint16_t born(Unit unit, std::size_t b) const {
+    std::uint16_t rows = domain_.partners(unit.block, reference_bond(unit, b).row_offset);
+    if (absent_.empty()) return rows;
+    const char* here = absent_.data() + padded_place(unit);
+    const char* there = here + bonds_of(unit)[b].offset;
+    for (int lane = 0; lane < block_rows; ++lane) {
+      if (here[lane] || there[lane]) rows = static_cast<std::uint16_t>(rows & ~(1u << lane));
+    }
+    return rows;
+  }
   const Bond& reference_bond(Unit unit, std::size_t b) const {
     return setup_.families.bonds[setup_.families.first[global_column(unit.slot)] + b];
   }
@@ -160,12 +181,18 @@ class ColumnBody final : public Body {
 
   void make_bonds();
   void make_units();
+  std::pair<std::int64_t, std::vector<double>> padded_heights() const;
+  void make_local_properties();
+  void make_thin_spots();
   double external_work() const {
     return work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
   }
   void follow_body();
   void fill_padded();
   BlockView<Real> view(Unit unit);
+  template <bool observing>
+  void sum(Unit unit, BlockSums<Real>& sums);
+  double breaking_energy(Unit unit, const BondConstants<Real>& bond, std::uint16_t broken) const;
   std::pair<int, int> free_rows(Unit unit, int component) const;
   void family_volumes(Unit unit, double (&intact)[block_rows], double (&whole)[block_rows]) const;
   bool has_ruptured(Unit unit) const;
@@ -185,6 +212,9 @@ class ColumnBody final : public Body {
   std::vector<std::int64_t> first_bond_;  ///< of owned columns, into bonds_
   std::vector<BondConstants<Real>> bonds_;
   std::vector<std::uint16_t> intact_;
+  std::vector<Real> half_stretch_, half_stiffness_;  ///< padded (see LocalProperties); empty: a uniform wall
+  std::vector<char> absent_;               ///< padded, 1 where thin spots leave no particle; empty: nowhere
+  std::vector<double> load_share_;         ///< [particles] relative to the whole wall's; empty: 1
   std::vector<Unit> interior_, boundary_;  ///< units that read no halo, units that do
 
   std::array<std::vector<double>, 3> u_, v_;  ///< m; m/s at half a step back (see first_kick_pending_)

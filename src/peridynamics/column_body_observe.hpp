@@ -1,14 +1,33 @@
 /// ColumnBody: fields and totals at one moment.
 #pragma once
 
+#include <limits>
+
 #include "peridynamics/column_body.hpp"
 
 namespace rhexis::peridynamics {
 
+/// What it took to break one bond of the unit in the rows of `broken`, in units of a uniform wall's.
+template <class Law, class Real>
+double ColumnBody<Law, Real>::breaking_energy(Unit unit, const BondConstants<Real>& bond,
+                                              std::uint16_t broken) const {
+  if (half_stretch_.empty()) return std::popcount(broken);
+  const std::size_t here = padded_place(unit),
+                    there = here + static_cast<std::size_t>(std::int64_t{bond.offset});
+  double energy = 0;
+  for (int rows = broken; rows != 0; rows &= rows - 1) {
+    const auto row = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(rows)));
+    const double s =
+        (double{half_stretch_[here + row]} + double{half_stretch_[there + row]}) / setup_.critical_stretch;
+    energy += s * s * (double{half_stiffness_[here + row]} + double{half_stiffness_[there + row]});
+  }
+  return energy;
+}
+
 template <class Law, class Real>
 void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals) {
   BlockSums<Real> sums;
-  sum_block<Law, true>(view(unit), sums);
+  sum<true>(unit, sums);
   totals.broken += sums.broken;
 
   const std::size_t column = global_column(unit.slot);
@@ -18,7 +37,8 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   const double energy_scale = force_scale * lattice.spacing;
   const double particle_volume = lattice.volume(column);
   const double load[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
-  const double* share = profile(unit);
+  double space[block_rows];
+  const double* share = load_shares(unit, space);
   const std::size_t first = particle(unit);
   const int rows = domain_.rows_in(unit.block);
 
@@ -40,7 +60,8 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
     const double energy = energy_scale * static_cast<double>(sums.energy[lane]);
     const double damage = whole[lane] > 0 ? 1 - intact[lane] / whole[lane] : 0;
     observation_.strain_energy_density[first + lane] = energy;
-    observation_.damage[first + lane] = damage;
+    observation_.damage[first + lane] =
+        is_absent(unit, lane) ? std::numeric_limits<double>::quiet_NaN() : damage;
     strain += energy;
     totals.max_damage = std::max(totals.max_damage, damage);
     if (damage >= rupture_damage) {
@@ -59,8 +80,8 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   const std::uint16_t* words = intact_.data() + first_word(unit);
   double fracture = 0;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const std::uint16_t born = domain_.partners(unit.block, reference_bond(unit, b).row_offset);
-    fracture += std::popcount(static_cast<std::uint16_t>(born & ~words[b])) * double{bonds[b].energy_weight};
+    const auto broken = static_cast<std::uint16_t>(born(unit, b) & ~words[b]);
+    fracture += breaking_energy(unit, bonds[b], broken) * double{bonds[b].energy_weight};
   }
   totals.fracture.add(per_weight * fracture);
 }

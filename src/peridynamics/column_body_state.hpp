@@ -33,7 +33,7 @@ void ColumnBody<Law, Real>::make_bonds() {
     for (std::int32_t block = 0; block < domain_.blocks(); ++block) {
       const Unit unit{slot, block};
       for (std::size_t b = 0; b < bonds_of(unit).size(); ++b) {
-        const std::uint16_t word = domain_.partners(block, reference_bond(unit, b).row_offset);
+        const std::uint16_t word = born(unit, b);
         intact_[first_word(unit) + b] = word;
         intact_directed_ += std::popcount(word);
       }
@@ -50,6 +50,67 @@ void ColumnBody<Law, Real>::make_units() {
           .push_back({slot, block});
     }
   }
+}
+
+/// Heights (m) of all rows that are here, halo included, and the first one's place relative to the first
+/// owned.
+template <class Law, class Real>
+std::pair<std::int64_t, std::vector<double>> ColumnBody<Law, Real>::padded_heights() const {
+  const PointLayout& l = domain_.layout();
+  const std::int64_t reach = setup_.families.reach;
+  const std::int64_t below = periodic_ ? reach : std::min(reach, l.first_row);
+  const std::int64_t past = l.row_count + reach;
+  const std::int64_t above = periodic_ ? past : std::min(past, l.rows - l.first_row);
+  std::vector<double> z;
+  for (std::int64_t row = -below; row < above; ++row)
+    z.push_back(setup_.lattice.height((l.first_row + row + l.rows) % l.rows));
+  return {-below, std::move(z)};
+}
+
+/// Halo included: what a place is like is no secret of its owner.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::make_local_properties() {
+  if (setup_.heterogeneity.uniform()) return;
+  half_stretch_.resize(domain_.padded_size());
+  half_stiffness_.resize(domain_.padded_size());
+  const auto heights = padded_heights();
+  const CrossSection& section = setup_.lattice.section;
+  const auto columns = domain_.columns();
+  parallel::for_each_share(threads_, columns.size(), [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const auto c = static_cast<std::size_t>(columns[slot]);
+      const auto factors = setup_.heterogeneity.along(section.x[c], section.y[c], heights.second);
+      const std::size_t first = domain_.padded(slot) + static_cast<std::size_t>(heights.first);
+      for (std::size_t i = 0; i < factors.size(); ++i) {
+        half_stretch_[first + i] =
+            static_cast<Real>(0.5 * setup_.critical_stretch * factors[i].critical_stretch);
+        half_stiffness_[first + i] = static_cast<Real>(0.5 * factors[i].stiffness);
+      }
+    }
+  });
+}
+
+template <class Law, class Real>
+void ColumnBody<Law, Real>::make_thin_spots() {
+  const ThinSpots& thin = setup_.thin_spots;
+  if (thin.none()) return;
+  absent_.resize(domain_.padded_size());
+  const CrossSection& section = setup_.lattice.section;
+  const auto columns = domain_.columns();
+  const auto heights = padded_heights();
+  for (std::size_t slot = 0; slot < columns.size(); ++slot) {
+    const auto c = static_cast<std::size_t>(columns[slot]);
+    char* absent = absent_.data() + domain_.padded(slot) + heights.first;
+    for (const double z : heights.second) *absent++ = thin.present(section.x[c], section.y[c], z) ? 0 : 1;
+  }
+  const PointLayout& l = domain_.layout();
+  for (std::int64_t c = 0; c < l.column_count; ++c) {
+    for (std::int64_t r = 0; r < l.row_count; ++r) {
+      const auto x = reference_position(c, r);
+      load_share_.push_back(thin.load_share(x[0], x[1], x[2]));
+    }
+  }
+  largest_load_ *= comm_.all_reduce(*std::ranges::max_element(load_share_), parallel::Reduce::max);
 }
 
 /// Moves the frame to the middle of the body's displacements, found from exact minima and maxima so that

@@ -9,10 +9,22 @@ template <class Law, class Real>
 BlockView<Real> ColumnBody<Law, Real>::view(Unit unit) {
   const std::size_t place = padded_place(unit);
   const auto u = current();
-  return {{u[0] + place, u[1] + place, u[2] + place},
-          bonds_of(unit),
-          intact_.data() + first_word(unit),
-          static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
+  BlockView<Real> block{{u[0] + place, u[1] + place, u[2] + place},
+                        bonds_of(unit),
+                        intact_.data() + first_word(unit),
+                        static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
+  if (!half_stretch_.empty()) block.local = {half_stretch_.data() + place, half_stiffness_.data() + place};
+  return block;
+}
+
+template <class Law, class Real>
+template <bool observing>
+void ColumnBody<Law, Real>::sum(Unit unit, BlockSums<Real>& sums) {
+  if (half_stretch_.empty()) {
+    sum_block<Law, observing, false>(view(unit), sums);
+  } else {
+    sum_block<Law, observing, true>(view(unit), sums);
+  }
 }
 
 /// Rows of a unit, [first, past), whose motion along axis `component` the ends do not hold: clamped ends hold
@@ -42,11 +54,11 @@ void ColumnBody<Law, Real>::family_volumes(Unit unit, double (&intact)[block_row
   const std::uint16_t* words = intact_.data() + first_word(unit);
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     const unsigned now = words[b];
-    const unsigned born = domain_.partners(unit.block, reference_bond(unit, b).row_offset);
+    const unsigned first = born(unit, b);
     const double volume = bonds[b].volume;
     for (int lane = 0; lane < block_rows; ++lane) {
       intact[lane] += (now >> lane & 1u) ? volume : 0.0;
-      whole[lane] += (born >> lane & 1u) ? volume : 0.0;
+      whole[lane] += (first >> lane & 1u) ? volume : 0.0;
     }
   }
 }
@@ -82,7 +94,7 @@ template <class Law, class Real>
 void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pressure, double kick,
                                       ThreadEvents& events) {
   BlockSums<Real> sums;
-  sum_block<Law, false>(view(unit), sums);
+  sum<false>(unit, sums);
   if (sums.broken > 0) {
     events.broken += sums.broken;
     if (!damaged_ && !events.damaged) events.damaged = has_ruptured(unit);
@@ -93,7 +105,8 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
   const double body_force[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
   const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
   const double bond_acceleration = setup_.bond_constant * volume / setup_.density;
-  const double* share = profile(unit);
+  double space[block_rows];
+  const double* share = load_shares(unit, space);
   const double dt = setup_.time_step;
   const double fastest = 2 * lattice.spacing / dt + 4 * load_speed_;
   const auto next_u = next();

@@ -41,6 +41,7 @@ struct Lattice {
 
   std::int64_t particles() const { return static_cast<std::int64_t>(section.size()) * rows; }
   double volume(std::size_t column) const { return section.area[column] * row_spacing; }
+  double height(std::int64_t row) const { return (static_cast<double>(row) + 0.5) * row_spacing; }  ///< z, m
 };
 
 /// The lattice that resolved parameters ask for. Throws InputError where no particle falls into the wall.

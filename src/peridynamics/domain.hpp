@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/field_view.hpp"
@@ -31,6 +32,8 @@ class Domain {
 
   /// Offset in a padded array of a local column's first owned row. Local columns: owned first, then halo.
   std::size_t padded(std::size_t slot) const { return slot * stride_ + front_; }
+  /// Columns that are owned or in the halo, by slot.
+  std::span<const std::int32_t> columns() const { return slot_column_; }
   /// Slot of a global column that is owned or in the halo.
   std::size_t slot(std::int32_t column) const { return static_cast<std::size_t>(slot_of_[column]); }
   /// Rows of block `b` on this rank (16, or fewer in the last).

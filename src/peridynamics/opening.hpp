@@ -13,17 +13,18 @@ namespace rhexis::peridynamics {
 ///
 /// Each axial row looks at the angles of its particles, all through the wall: a run of angles without any
 /// particle is a gap. Uniform widening keeps angles, so an intact wall has exactly the gaps of its reference
-/// state; a gap counts once it is half as wide again as the widest of those, and its excess over that width
-/// times the row's mean radius times the row spacing is its area. Exact to about one spacing of width per
-/// row. A tear across the axis leaves no such gap, but rows that lie apart: in each sector of the wall, the
-/// distance between one row's farthest particle and the next row's nearest counts in the same way, once it is
-/// half as wide again as the row spacing.
+/// state; a gap counts once it is half as wide again as the widest of those in its row, and its excess over
+/// that width times the row's mean radius times the row spacing is its area. Exact to about one spacing of
+/// width per row. A tear across the axis leaves no such gap, but rows that lie apart: in each sector of the
+/// wall, the distance between one row's farthest particle and the next row's nearest counts in the same way,
+/// once it is half as wide again as the row spacing.
 ///
 /// Angles are sorted into bins that ranks merge by a bitwise or, and rows have a least and a greatest height,
 /// so the result does not depend on ranks.
 class OpeningGauge {
  public:
-  OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);
+  OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm,
+               const ThinSpots& thin_spots = {});
 
   /// m2. Collective.
   double area() const;
@@ -31,8 +32,9 @@ class OpeningGauge {
  private:
   const Body* body_;
   parallel::Communicator comm_;
+  ThinSpots thin_spots_;
   double row_spacing_, radius_quantum_;
-  double widest_intact_gap_;            ///< rad
+  std::vector<double> intact_gap_;      ///< rad, widest in each row of the reference state
   std::size_t bins_;                    ///< of angle, per row
   std::size_t sectors_;                 ///< of the cross-section, each with columns in it
   std::vector<std::size_t> sector_of_;  ///< [columns]

@@ -1,6 +1,8 @@
 #include "peridynamics/parameters.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "core/error.hpp"
@@ -9,7 +11,7 @@
 namespace rhexis::peridynamics {
 
 ParameterList declare(Parameters& p) {
-  return {
+  ParameterList all{
       {"vessel.inner_radius",
        &p.inner_radius,
        "m",
@@ -159,6 +161,9 @@ ParameterList declare(Parameters& p) {
        "",
        {.lower = 0, .upper = 1, .lower_open = true}},
   };
+  std::ranges::copy(declare(p.scatter), std::back_inserter(all));
+  std::ranges::copy(declare(p.spots), std::back_inserter(all));
+  return all;
 }
 
 double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles) {
@@ -271,8 +276,9 @@ std::vector<std::string> resolve(Parameters& p) {
   resolve_load(p);
   resolve_ends(p);
 
-  std::vector<std::string> warnings;
   const double wall = p.outer_radius - p.inner_radius;
+  std::vector<std::string> warnings = resolve(p.scatter, wall, *p.spacing);
+  std::ranges::move(check(p.spots, p.length, wall, *p.spacing), std::back_inserter(warnings));
   const double across = wall / *p.spacing;
   if (across < 2.999) {
     warnings.push_back("the wall is " + text(across) +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "peridynamics/heterogeneity_parameters.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -47,13 +48,18 @@ struct Parameters {
   std::optional<double> time_step;  ///< s
   double step_fraction = 0;
   double end_time = 0;  ///< s
+
+  Scatter scatter;
+  Spots spots;
 };
 
-/// The keys of sections vessel, material, discretisation, boundary, load and time, bound to `p`.
+/// The keys of sections vessel, material, scatter, spot, discretisation, boundary, load and time, bound to
+/// `p`.
 ParameterList declare(Parameters& p);
 
 /// Checks what one key alone cannot tell (radii, horizon, table, ...) and fills spacing, horizon, ramp_time,
-/// layer_thickness, end_length and supply_area. Throws InputError with the key at fault. Returns warnings.
+/// layer_thickness, end_length, supply_area and correlation_length. Throws InputError with the key at fault.
+/// Returns warnings.
 std::vector<std::string> resolve(Parameters& p);
 
 /// Spacing (m) that cuts the wall's volume into `particles` cubes, Sec. 3.3: (pi (r1^2 - r0^2) L / N)^(1/3).

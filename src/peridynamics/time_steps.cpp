@@ -5,13 +5,15 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "peridynamics/heterogeneity.hpp"
 #include "peridynamics/materials/pmb.hpp"
 
 namespace rhexis::peridynamics {
 
 TimeSteps time_steps(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
   TimeSteps t;
-  t.stable = stable_time_step(lattice, families, Pmb::bond_constant(p.young_modulus, *p.horizon), p.density);
+  t.stable = stable_time_step(lattice, families, Pmb::bond_constant(p.young_modulus, *p.horizon), p.density) /
+             std::sqrt(Heterogeneity(p).largest_stiffness(lattice));
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
   if (t.step > t.stable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +

@@ -96,6 +96,12 @@ WRONG_INPUTS = [
     ("unknown field", replaced("every_steps", 'fields = ["damge"]'), ["damge", "damage"]),
     ("ends that hold all", GOOD + '[boundary]\nend_length = "1 mm"\n', ["end_length"]),
     ("periodic piece too short", GOOD.replace('length = "2 mm"', 'length = "0.5 mm"') + '[boundary]\nends = "axial_periodic"\n', ["vessel.length", "horizon"]),
+    ("spot without a place", GOOD + '[[spot]]\nradius = "1 mm"\n', ["spot[1].position", "missing"]),
+    ("spot beyond the end", GOOD + '[[spot]]\nposition = "3 mm"\nradius = "1 mm"\n', [":21:", "spot[1].position", "2 mm"]),
+    ("unknown key of a spot", GOOD + '[[spot]]\npositoin = "1 mm"\n', [":21:", "spot[1].positoin", "position"]),
+    ("one spot as a section", GOOD + '[spot]\nposition = "1 mm"\n', [":20:", "[[spot]]"]),
+    ("spot of no thickness", GOOD + '[[spot]]\nposition = "1 mm"\nradius = "1 mm"\nthickness = 0.1\n', [":23:", "thickness", "spacing"]),
+    ("scatter of another law", GOOD + '[scatter]\nlaw = "gauss"\n', [":21:", "scatter.law", "weibull"]),
     ("critical stretch of zero", GOOD + "[material]\ncritical_stretch = 0\n", ["critical_stretch"]),
     ("missing script", GOOD + '[insitu]\nscripts = ["nowhere.py"]\n', ["insitu.scripts", "nowhere.py"]),
 ]
@@ -274,6 +280,36 @@ class Cli(unittest.TestCase):
             self.assertEqual(refused.returncode, 2, refused.stderr)
             self.assertIn(checkpoint, refused.stderr)
             self.assertFalse(os.path.exists(self.path("x")))
+
+    def test_restart_draws_the_same_wall(self):
+        import h5py
+        import numpy
+        self.write(replaced("end", 'end = "200 us"') + '[material]\ncritical_stretch = 0.1\n'
+                   '[scatter]\ncritical_stretch = 0.1\nstiffness = 0.1\n'
+                   '[[spot]]\nposition = "1 mm"\nangle = "90 deg"\nradius = "0.5 mm"\nthickness = 0.5\n')
+        whole = self.rhexis("run", "vessel.toml", "-o", "whole", "--set", "output.checkpoint_every=150")
+        self.assertEqual(whole.returncode, 0, whole.stderr)
+        checkpoint = "whole/checkpoints/step_000150.h5"
+        go_on = self.rhexis("run", "vessel.toml", "-o", "rest", "--restart", checkpoint, ranks=2)
+        self.assertEqual(go_on.returncode, 0, go_on.stderr)
+        last, again = self.history("whole")[-1], self.history("rest")[-1]
+        self.assertGreater(int(last["broken_bonds"]), 100)
+        for rows in (last, again):
+            rows.pop("external_work_J")  # sums to a last digit
+        self.assertEqual(last, again)
+        with h5py.File(self.path("whole/particles.h5")) as a, h5py.File(
+                self.path("rest/particles_from_000150.h5")) as b:
+            damage = a["damage/000400"][:]
+            numpy.testing.assert_array_equal(damage, b["damage/000400"][:])
+            numpy.testing.assert_array_equal(a["position/000400"][:], b["position/000400"][:])
+        absent = int(numpy.isnan(damage).sum())
+        self.assertGreater(absent, 20)
+        self.assertEqual(self.record("whole")["results"]["particles"], damage.size - absent)
+        self.assertEqual(self.record("whole")["input"]["spot[1]"]["thickness"]["value"], 0.5)
+        for other in ("scatter.seed=2", "spot[1].thickness=0.6"):
+            refused = self.rhexis("run", "vessel.toml", "-o", "x", "--restart", checkpoint, "--set", other)
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn("another body", refused.stderr)
 
 
 if __name__ == "__main__":

@@ -26,6 +26,12 @@ struct Pmb {
 
   /// Eq. (5) in terms of t.
   static double breaking_t(double critical_stretch) { return critical_stretch * (2 + critical_stretch); }
+  /// The same, lane by lane.
+  template <class D, class V>
+  static HWY_INLINE V breaking_t(D d, V critical_stretch) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    return hn::Mul(critical_stretch, hn::Add(hn::Set(d, hn::TFromD<D>(2)), critical_stretch));
+  }
 
   /// g(t), lane by lane. In single precision the root is approximate and then corrected to third order by its
   /// own residual, in a form that keeps the accuracy of small t: g is within 1e-6 |g| + 5e-11.

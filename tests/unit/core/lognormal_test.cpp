@@ -36,6 +36,14 @@ TEST(Lognormal, HasMeanOneAndTheGivenSpread) {
   }
 }
 
+TEST(Lognormal, OfANormalValueIsTheSameQuantile) {
+  const Lognormal factor(0.3);
+  const double share = 0.1;  // of the lower half
+  const double z = lower_normal_quantile(share / 2);
+  EXPECT_NEAR(factor.of_normal(z), factor(share, false), 1e-14);
+  EXPECT_NEAR(factor.of_normal(-z), factor(share, true), 1e-14);
+}
+
 TEST(Lognormal, SplitsAtItsMedian) {
   const Lognormal factor(0.2);
   EXPECT_NEAR(factor(1 - 1e-12, false), factor(1 - 1e-12, true), 1e-9);

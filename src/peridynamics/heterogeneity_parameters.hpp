@@ -1,0 +1,49 @@
+/// Input keys of a wall whose properties differ from place to place.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parameter.hpp"
+
+namespace rhexis::peridynamics {
+
+/// Section [scatter]: the random part.
+struct Scatter {
+  std::string law = "lognormal";                  ///< of the factors: "lognormal" | "weibull"
+  double critical_stretch = 0;                    ///< coefficient of variation
+  double stiffness = 0;                           ///< coefficient of variation
+  std::optional<double> correlation_length = {};  ///< m
+  std::int64_t seed = 1;
+
+  bool none() const { return critical_stretch == 0 && stiffness == 0; }
+};
+
+/// Sections [[spot]]: places where the wall is different; one element of each vector a spot.
+struct Spots {
+  std::vector<double> position;          ///< m, of the centre along the axis, from the end z = 0
+  std::vector<double> angle;             ///< rad, of the centre around the axis, from x towards y
+  std::vector<double> radius;            ///< m, along the axis and along the circle at mid-wall
+  std::vector<double> critical_stretch;  ///< factor at the centre
+  std::vector<double> stiffness;         ///< factor at the centre
+  std::vector<double> thickness;         ///< share of the wall that is left at the centre, from the lumen on
+
+  std::size_t size() const { return position.size(); }
+
+  /// 1 at the centre of spot `i`, 0 from its radius on: (1 + cos(pi d / radius)) / 2 at distance d along the
+  /// circle of `mid_radius` and the axis; angle in rad, lengths in m.
+  double nearness(std::size_t i, double mid_radius, double angle, double z) const;
+};
+
+ParameterList declare(Scatter& s);
+ParameterList declare(Spots& s);
+
+/// Fills the correlation length. Lengths in m. Throws InputError with the key at fault. Returns warnings.
+std::vector<std::string> resolve(Scatter& s, double wall, double spacing);
+
+/// Lengths in m. Throws InputError with the key at fault. Returns warnings.
+std::vector<std::string> check(const Spots& s, double length, double wall, double spacing);
+
+}  // namespace rhexis::peridynamics
