@@ -289,6 +289,12 @@ std::vector<std::string> resolve(Parameters& p) {
                        ") is thicker than the wall (" + quantity(wall, "m") +
                        "): part of the load falls outside it and is lost");
   }
+  if (p.layer == "paper" && std::ranges::any_of(p.spots.thickness, [&](double share) {
+        return share < 1 && share * wall < *p.layer_thickness;
+      })) {
+    warnings.push_back("a spot is thinner than the loaded layer (" + quantity(*p.layer_thickness, "m") +
+                       "), which loses part of its load there; load.layer = \"consistent\" keeps it");
+  }
   return warnings;
 }
 

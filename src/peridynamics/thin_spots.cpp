@@ -6,26 +6,41 @@
 #include "core/error.hpp"
 
 namespace rhexis::peridynamics {
+namespace {
+
+constexpr double rounding =
+    1 + 1e-9;  ///< a particle exactly at the edge is inside, whatever the last digit says
+
+}  // namespace
 
 ThinSpots::ThinSpots(const Parameters& p, const Lattice& lattice, const PressureLayer& layer)
     : inner_radius_(p.inner_radius),
       outer_radius_(p.outer_radius),
-      layer_radius_(std::min(p.outer_radius, p.inner_radius + *p.layer_thickness)),
       spots_(p.spots),
-      keeps_resultant_(p.layer == "consistent") {
+      keeps_resultant_(p.layer != "paper") {
   if (std::ranges::all_of(spots_.thickness, [](double f) { return f == 1; })) return;
+  const CrossSection& s = lattice.section;
+  const auto load = [&](std::size_t c) { return std::hypot(layer.bx[c], layer.by[c]) * lattice.volume(c); };
+  for (std::size_t c = 0; c < s.size(); ++c) {
+    if (load(c) > 0) borne_within_.emplace_back(std::hypot(s.x[c], s.y[c]), load(c));
+  }
+  std::ranges::sort(borne_within_);
+  for (std::size_t i = 1; i < borne_within_.size(); ++i)
+    borne_within_[i].second += borne_within_[i - 1].second;
+  const double total = borne_within_.back().second;
+  for (auto& [radius, share] : borne_within_) share /= total;
+
   double wanted = 0,
-         borne = 0;  // m2, of the thin part of the layer: resultant in the whole wall, and in this
-  for (std::size_t c = 0; c < lattice.section.size(); ++c) {
-    const double x = lattice.section.x[c], y = lattice.section.y[c];
-    const double load = std::hypot(layer.bx[c], layer.by[c]) * lattice.volume(c);
+         borne = 0;  // of the places that lack a part of the layer: in the whole wall, and in this
+  for (std::size_t c = 0; c < s.size(); ++c) {
     for (std::int64_t row = 0; row < lattice.rows; ++row) {
       const double z = lattice.height(row);
-      const bool here = present(x, y, z);
+      const bool here = present(s.x[c], s.y[c], z);
       if (!here) ++absent_;
-      if (load == 0 || !in_thin_layer(x, y, z)) continue;
-      wanted += load;
-      if (here) borne += load * crowding(x, y, z);
+      const double left = share_left(s.x[c], s.y[c], z);
+      if (left == 1) continue;
+      wanted += load(c);
+      if (here) borne += load(c) / left;
     }
   }
   if (!keeps_resultant_ || wanted == 0) return;
@@ -42,21 +57,19 @@ double ThinSpots::outer_radius_at(double x, double y, double z) const {
 }
 
 bool ThinSpots::present(double x, double y, double z) const {
-  return std::hypot(x, y) <= outer_radius_at(x, y, z) * (1 + 1e-9);
+  return std::hypot(x, y) <= outer_radius_at(x, y, z) * rounding;
 }
 
-bool ThinSpots::in_thin_layer(double x, double y, double z) const {
-  return outer_radius_at(x, y, z) < layer_radius_;
-}
-
-double ThinSpots::crowding(double x, double y, double z) const {
-  const auto area = [&](double radius) { return radius * radius - inner_radius_ * inner_radius_; };
-  return area(layer_radius_) / area(outer_radius_at(x, y, z));
+double ThinSpots::share_left(double x, double y, double z) const {
+  const auto past = std::ranges::upper_bound(borne_within_, outer_radius_at(x, y, z) * rounding, {},
+                                             &std::pair<double, double>::first);
+  return past == borne_within_.begin() ? 0 : (past - 1)->second;
 }
 
 double ThinSpots::load_share(double x, double y, double z) const {
   if (!present(x, y, z)) return 0;
-  return keeps_resultant_ && in_thin_layer(x, y, z) ? balance_ * crowding(x, y, z) : 1;
+  const double left = share_left(x, y, z);
+  return keeps_resultant_ && left < 1 ? balance_ / left : 1;
 }
 
 }  // namespace rhexis::peridynamics

@@ -3,10 +3,12 @@
 /// bonds, no load, no damage, and stay where they are.
 ///
 /// Where the wall is thinner than the loaded layer, what is left of it takes over the load of what is missing
-/// (`load.layer` = "consistent"), so that the resultant over the spots is that of the whole wall.
+/// (`load.layer` other than "paper"), so that the resultant over the spots is that of the whole wall.
 #pragma once
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "peridynamics/pressure_layer.hpp"
 
@@ -30,15 +32,16 @@ class ThinSpots {
 
  private:
   double outer_radius_at(double x, double y, double z) const;
-  bool in_thin_layer(double x, double y, double z) const;
-  /// Area of the whole layer over that of what is left of it, in the same sector.
-  double crowding(double x, double y, double z) const;
+  /// Share of the load that columns bear which reach no farther out than the wall at (x, y, z).
+  double share_left(double x, double y, double z) const;
 
-  double inner_radius_ = 0, outer_radius_ = 0, layer_radius_ = 0;  ///< m
+  double inner_radius_ = 0, outer_radius_ = 0;  ///< m
   Spots spots_;
   std::int64_t absent_ = 0;
   bool keeps_resultant_ = false;
-  double balance_ = 1;  ///< what particles make of areas: makes the resultant exact
+  std::vector<std::pair<double, double>>
+      borne_within_;    ///< radius (m), share of the load up to it; ascending
+  double balance_ = 1;  ///< makes the resultant exact where columns of one radius are not spread evenly
 };
 
 }  // namespace rhexis::peridynamics

@@ -190,6 +190,9 @@ TEST(Spots, RefusesWhatIsNoSpot) {
   Parameters far = spotted(0.5, 1, 1);
   far.spots.position[0] = 4.1e-3;
   EXPECT_EQ(key(far), "spot[1].position");
+  Parameters unloaded = spotted(1, 1, 0.5);
+  unloaded.layer = "paper";
+  EXPECT_EQ(resolve(unloaded).size(), 1U);
   Parameters small = spotted(0.5, 1, 1);
   small.spots.radius[0] = 1.9e-4;
   EXPECT_EQ(resolve(small).size(), 1U);
