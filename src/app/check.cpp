@@ -11,6 +11,7 @@
 #include "core/format.hpp"
 #include "peridynamics/body.hpp"
 #include "peridynamics/bond_kernel.hpp"
+#include "peridynamics/strength.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -78,6 +79,7 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   console.item("bonds", fmt::format("{}, at most {} a particle",
                                     grouped(peridynamics::count_bonds(lattice, families, periodic)),
                                     peridynamics::largest_family(lattice, families, periodic)));
+  console.item("strength", peridynamics::describe_strength(c.vessel));
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));

@@ -14,6 +14,7 @@
 #include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
+#include "peridynamics/strength.hpp"
 #include "peridynamics/time_steps.hpp"
 
 namespace rhexis::app {
@@ -290,7 +291,13 @@ void resolve_coupling(Configuration& c) {
   c.vessel.blood_density = c.hemodynamics.density;
   c.network.wall.young_modulus = c.vessel.young_modulus;
   c.network.wall.poisson_ratio = peridynamics::Pmb::poisson_ratio;
-  c.screening.critical_stretch = c.vessel.critical_stretch;
+  if (c.vessel.energy_release_rate && !c.vessel.horizon)
+    throw InputError(
+        "before the network is solved no spacing is known, and so no critical stretch; give "
+        "discretisation.horizon, or material.critical_stretch",
+        "material.energy_release_rate");
+  peridynamics::settle_critical_stretch(c.vessel);
+  c.screening.critical_stretch = *c.vessel.critical_stretch;
   if (p.events > 0 && c.network.source == "tree" && c.network.tier != "explicit")
     throw InputError("a cascade needs network.tier = \"explicit\"", "cascade.events");
   if (p.events > 0 && c.hemodynamics.phase_separation)

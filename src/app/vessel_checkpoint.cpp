@@ -28,7 +28,7 @@ std::string body_description(const Configuration& c) {
     values["vessel"] = {{"inner_radius", c.vessel.inner_radius},
                         {"outer_radius", c.vessel.outer_radius},
                         {"length", c.vessel.length},
-                        {"critical_stretch", c.vessel.critical_stretch}};
+                        {"critical_stretch", *c.vessel.critical_stretch}};
   }
   return values.dump();
 }

@@ -18,13 +18,13 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families
   setup.end_length = *p.end_length;
   setup.density = p.density;
   setup.bond_constant = Pmb::bond_constant(p.young_modulus, *p.horizon);
-  setup.critical_stretch = p.critical_stretch;
+  setup.critical_stretch = *p.critical_stretch;
   setup.time_step = time_step;
   // Strain energy of the whole wall at the critical stretch, or the pressure on as much: what happens stays
   // within some powers of ten of it.
   const double volume = static_cast<double>(setup.lattice.particles()) * setup.lattice.volume(0);
   setup.energy_scale =
-      std::max(p.young_modulus * p.critical_stretch * p.critical_stretch, p.pressure) * volume;
+      std::max(p.young_modulus * *p.critical_stretch * *p.critical_stretch, p.pressure) * volume;
   setup.double_bonds = p.bond_precision == "double";
   return setup;
 }

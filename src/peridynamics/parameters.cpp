@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "peridynamics/strength.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -31,8 +32,13 @@ ParameterList declare(Parameters& p) {
       {"material.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"",
        "Young's modulus of the wall; Poisson's ratio is 1/4 in the bond-based law.", "Table 2, Eq. (4)",
        Range::positive()},
-      {"material.critical_stretch", &p.critical_stretch, "1", "0.25", "Stretch at which a bond breaks, s0.",
+      {"material.critical_stretch", &p.critical_stretch, "1", "\"auto\"",
+       "Stretch at which a bond breaks, s0; \"auto\" is what energy_release_rate gives, or 0.25.",
        "Table 2, Eq. (5)", Range::between(1e-6, 10)},
+      {"material.energy_release_rate", &p.energy_release_rate, "J/m2", "\"auto\"",
+       "Work to tear a unit of area, G0, in place of critical_stretch: s0 = sqrt(5 G0 / (6 E delta)) then "
+       "follows the horizon.",
+       "Silling & Askari 2005, with Eq. (4)", Range::positive()},
 
       {"discretisation.cross_section",
        &p.cross_section,
@@ -249,6 +255,7 @@ std::vector<std::string> resolve(Parameters& p) {
     throw InputError("two numbers are needed, for x and y", "discretisation.lattice_shift");
   }
   resolve_spacing(p);
+  settle_critical_stretch(p);
   if (p.length < *p.spacing) throw InputError("the vessel is shorter than one spacing", "vessel.length");
   resolve_load(p);
   resolve_ends(p);

@@ -18,7 +18,8 @@ struct Parameters {
 
   double density = 0;        ///< kg/m3
   double young_modulus = 0;  ///< Pa; Poisson's ratio is 1/4 in the bond-based law
-  double critical_stretch = 0;
+  std::optional<double> critical_stretch;
+  std::optional<double> energy_release_rate;  ///< J/m2; empty once critical_stretch has been found from it
 
   std::string cross_section;      ///< "lattice" | "polar"
   std::optional<double> spacing;  ///< m
@@ -50,8 +51,9 @@ struct Parameters {
 /// The keys of sections vessel, material, discretisation, boundary, load and time, bound to `p`.
 ParameterList declare(Parameters& p);
 
-/// Checks what one key alone cannot tell (radii, horizon, table, ...) and fills spacing, horizon, ramp_time,
-/// layer_thickness, end_length and supply_area. Throws InputError with the key at fault. Returns warnings.
+/// Checks what one key alone cannot tell (radii, horizon, table, ...) and fills spacing, horizon,
+/// critical_stretch, ramp_time, layer_thickness, end_length and supply_area. Throws InputError with the key
+/// at fault. Returns warnings.
 std::vector<std::string> resolve(Parameters& p);
 
 /// Spacing (m) that cuts the wall's volume into `particles` cubes, Sec. 3.3: (pi (r1^2 - r0^2) L / N)^(1/3).
