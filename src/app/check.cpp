@@ -11,6 +11,7 @@
 #include "core/format.hpp"
 #include "peridynamics/body.hpp"
 #include "peridynamics/bond_kernel.hpp"
+#include "peridynamics/linear_limit.hpp"
 #include "peridynamics/strength.hpp"
 
 namespace rhexis::app {
@@ -83,6 +84,11 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));
+  const double limit = peridynamics::linear_time_step_limit(
+      peridynamics::make_setup(c.vessel, lattice, families, c.time_step));
+  console.item("instability",
+               fmt::format("begins at {} where strains are small, {:.2f} times the stable step",
+                           quantity(limit, "s"), limit / c.stable_time_step));
   const std::string processors =
       fmt::format("{} rank{} x {} thread{}", comm.size(), comm.size() > 1 ? "s" : "",
                   parallel::thread_count(), parallel::thread_count() > 1 ? "s" : "");

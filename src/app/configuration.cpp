@@ -133,7 +133,7 @@ ParameterList declare_coupled(Configuration& c) {
 bool ensemble_settles(const std::string& key) {
   return input::section_of(key) == "output" || key == "load.pressure" || key == "load.table" ||
          key == "load.venting" || key == "load.supply_area" || key == "load.discharge_coefficient" ||
-         key == "load.blood_density" || key == "time.step";
+         key == "load.blood_density" || key == "time.step" || key == "time.allow_unstable";
 }
 
 ParameterList declare_ensemble(Configuration& c) {

@@ -34,6 +34,9 @@ class VesselRun : private RunBase {
   void open_results();
   void say_header();
   void time_loop();
+  void check_balance(long step, const peridynamics::Totals& t) const;
+  bool balance_due(long step) const;
+  void warn_of_crushed_bonds(long step, const peridynamics::Totals& t);
   void observe(long step, bool with_output, bool with_pictures);
   bool pictures_due(long step, bool output_due);
   void take_notice(long step, std::uint64_t flags);
@@ -58,7 +61,7 @@ class VesselRun : private RunBase {
   std::optional<output::History> history_;
 
   long first_step_ = 0, step_ = 0;
-  bool interrupted_ = false;
+  bool interrupted_ = false, crushing_was_said_ = false;
   double open_area_ = 0;                 ///< m2
   double vent_now_ = 1, vent_next_ = 1;  ///< shares of the scheduled pressure, at t_n and t_{n+1}
   double least_vent_ = 1;

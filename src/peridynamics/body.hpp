@@ -45,7 +45,10 @@ struct Totals {
   double max_displacement = 0;                                      ///< m
   double max_damage = 0;
   std::int64_t broken_bonds = 0;  ///< undirected
-  double rupture_length = 0;      ///< m, axial extent of damage >= rupture_damage, reference rows
+  /// Undirected, shorter than half their length: across such a bond the force turns faster than the bond's
+  /// stiffness, for which alone the time step is known to be stable.
+  std::int64_t crushed_bonds = 0;
+  double rupture_length = 0;  ///< m, axial extent of damage >= rupture_damage, reference rows
 };
 
 /// Whether the energies fit the work done. Energy out of nowhere, or none to speak of, is the surest sign of

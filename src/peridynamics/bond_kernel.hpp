@@ -46,6 +46,7 @@ struct BlockSums {
   alignas(64) Real force[3][parallel::block_rows];
   alignas(64) Real energy[parallel::block_rows];  ///< filled when observing only
   int broken = 0;                                 ///< directed bonds that broke now
+  int crushed = 0;  ///< directed bonds shorter than half their length; counted when observing only
 };
 
 /// Floating-point operations of one bond when it pulls: 9 for eta, y and xi + y, 6 for t, 12 for g(t), 1 for
@@ -126,6 +127,8 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
       if constexpr (observing) {
         const V w = hn::Mul(Law::energy_factor(d, t), hn::Set(d, bond.energy_weight));
         energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
+        const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
+        sums.crushed += static_cast<int>(hn::CountTrue(d, crushed));
       }
     }
     hn::Store(fx, d, sums.force[0] + lane);

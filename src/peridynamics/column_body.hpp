@@ -47,7 +47,7 @@ struct ThreadTotals {
   explicit ThreadTotals(double scale) : kinetic(scale), strain(scale), fracture(scale) {}
   ExactSum kinetic, strain, fracture;
   double max_damage = 0;
-  std::int64_t broken = 0;
+  std::int64_t broken = 0, crushed = 0;
   std::int64_t ruptured_first = INT64_MAX, ruptured_last = -1;
 };
 

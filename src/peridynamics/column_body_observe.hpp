@@ -10,6 +10,7 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   BlockSums<Real> sums;
   sum_block<Law, true>(view(unit), sums);
   totals.broken += sums.broken;
+  totals.crushed += sums.crushed;
 
   const std::size_t column = global_column(unit.slot);
   const Lattice& lattice = setup_.lattice;
@@ -85,6 +86,7 @@ const Observation& ColumnBody<Law, Real>::observe(double pressure) {
     observed_.strain.add(other.strain);
     observed_.fracture.add(other.fracture);
     observed_.broken += other.broken;
+    observed_.crushed += other.crushed;
     observed_.max_damage = std::max(observed_.max_damage, other.max_damage);
     observed_.ruptured_first = std::min(observed_.ruptured_first, other.ruptured_first);
     observed_.ruptured_last = std::max(observed_.ruptured_last, other.ruptured_last);
@@ -105,6 +107,7 @@ Totals ColumnBody<Law, Real>::totals() const {
   totals.max_displacement = max_displacement();
   totals.max_damage = comm_.all_reduce(observed_.max_damage, parallel::Reduce::max);
   totals.broken_bonds = comm_.all_reduce(born_directed_ - intact_directed_, parallel::Reduce::sum) / 2;
+  totals.crushed_bonds = comm_.all_reduce(observed_.crushed, parallel::Reduce::sum) / 2;
   const std::int64_t first = comm_.all_reduce(observed_.ruptured_first, parallel::Reduce::min);
   const std::int64_t last = comm_.all_reduce(observed_.ruptured_last, parallel::Reduce::max);
   if (last >= first)

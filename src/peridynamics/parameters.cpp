@@ -150,6 +150,8 @@ ParameterList declare(Parameters& p) {
        "Share of the stable time step that \"auto\" takes.",
        "",
        {.lower = 0, .upper = 1, .lower_open = true}},
+      {"time.allow_unstable", &p.allow_unstable, "", "false",
+       "Take a time.step above the stable one all the same: to see where instability begins.", ""},
   };
 }
 

@@ -45,6 +45,7 @@ struct Parameters {
 
   std::optional<double> time_step;  ///< s
   double step_fraction = 0;
+  bool allow_unstable = false;
   double end_time = 0;  ///< s
 };
 

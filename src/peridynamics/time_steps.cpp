@@ -13,7 +13,7 @@ TimeSteps time_steps(const Parameters& p, const Lattice& lattice, const BondFami
   TimeSteps t;
   t.stable = stable_time_step(lattice, families, Pmb::bond_constant(p.young_modulus, *p.horizon), p.density);
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
-  if (t.step > t.stable) {
+  if (t.step > t.stable && !p.allow_unstable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +
                          quantity(0.9995 * t.stable, "s", 3) + "; take less, or \"auto\" for " +
                          quantity(p.step_fraction * t.stable, "s"),

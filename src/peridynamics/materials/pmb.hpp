@@ -49,8 +49,9 @@ struct Pmb {
     namespace hn = hwy::HWY_NAMESPACE;
     using Real = hn::TFromD<D>;
     const V one = hn::Set(d, Real{1});
-    // Particles on top of each other would divide by zero; their bond then has a large but finite force.
-    const V a = hn::Max(hn::Add(one, t), hn::Set(d, Real(1e-10)));
+    // Within a thousandth of a bond's length, where t has lost the digits that 1 + t needs, the force falls
+    // to zero with the distance instead of staying c: particles may lie on top of each other.
+    const V a = hn::Max(hn::Add(one, t), hn::Set(d, Real(1e-6)));
     if constexpr (std::is_same_v<Real, double>) {
       return hn::Div(t, hn::Add(a, hn::Sqrt(a)));
     } else {
