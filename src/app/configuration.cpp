@@ -152,6 +152,7 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
                                                     {"coupled", declare_coupled(c)},
                                                     {"ensemble", declare_ensemble(c)}};
   for (auto& [name, keys] : models) {
+    if (name == "vessel") append(keys, peridynamics::declare_start(c.vessel));
     if (name != "ensemble") append(keys, insitu::declare(c.insitu));
   }
   std::string model = "vessel";
@@ -330,6 +331,7 @@ void resolve_wall(Configuration& c) {
 ParameterList declare(Configuration& c) {
   ParameterList all = declare_scene(c);
   append(all, declare_vessel(c));
+  append(all, peridynamics::declare_start(c.vessel));
   append(all, declare_network(c));
   append(all, coupling::declare(c.coupling));
   append(all, ensemble::declare(c.ensemble));

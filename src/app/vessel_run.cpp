@@ -47,6 +47,7 @@ Ending VesselRun::run() {
     open_results();
     start_insitu();
     say_header();
+    if (c_.vessel.equilibrium_pressure > 0 && options_.restart.empty()) start_at_equilibrium();
     time_loop();
     if (coupling_ != nullptr) coupling_->end(time_at(step_));
     finish_insitu();

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/field_view.hpp"
@@ -128,6 +129,10 @@ struct BodySetup {
   double energy_scale = 0;  ///< J, order of magnitude of the energies that will occur
   bool double_bonds = false;
 };
+
+/// Rows of the whole body, [first, past), whose motion along axis `component` the ends do not hold: clamped
+/// ends hold all components, sliding ones the axial one.
+std::pair<std::int64_t, std::int64_t> free_rows(const BodySetup& setup, int component);
 
 /// The setup that resolved parameters describe.
 BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families, double time_step);

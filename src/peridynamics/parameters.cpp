@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "peridynamics/schedule.hpp"
 #include "peridynamics/strength.hpp"
 
 namespace rhexis::peridynamics {
@@ -155,6 +156,19 @@ ParameterList declare(Parameters& p) {
   };
 }
 
+ParameterList declare_start(Parameters& p) {
+  return {
+      {"start.equilibrium_pressure", &p.equilibrium_pressure, "Pa", "\"0 Pa\"",
+       "The run starts with the wall at rest in static equilibrium under this pressure, at the moment at "
+       "which "
+       "the schedule first has it; 0: from the unloaded wall.",
+       "", Range::not_negative()},
+      {"start.tolerance", &p.equilibrium_tolerance, "1", "1e-4",
+       "Largest force on a particle left over in that equilibrium, relative to the force of the load.", "",
+       Range::between(1e-12, 0.1)},
+  };
+}
+
 double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles) {
   const double wall_area = std::numbers::pi * (outer_radius * outer_radius - inner_radius * inner_radius);
   return std::cbrt(wall_area * length / particles);
@@ -260,6 +274,7 @@ std::vector<std::string> resolve(Parameters& p) {
   settle_critical_stretch(p);
   if (p.length < *p.spacing) throw InputError("the vessel is shorter than one spacing", "vessel.length");
   resolve_load(p);
+  if (p.equilibrium_pressure > 0) p.schedule_start = time_of_pressure(p, p.equilibrium_pressure);
   resolve_ends(p);
 
   std::vector<std::string> warnings;

@@ -32,6 +32,10 @@ struct Parameters {
   std::string ends;                  ///< see EndCondition
   std::optional<double> end_length;  ///< m held at each end
 
+  double equilibrium_pressure = 0;  ///< Pa, 0: the run starts from the unloaded wall
+  double equilibrium_tolerance = 0;
+  double schedule_start = 0;  ///< s of the schedule at which the run starts
+
   double pressure = 0;                    ///< Pa
   std::string schedule;                   ///< "step" | "ramp" | "smooth_ramp" | "table"
   std::optional<double> ramp_time;        ///< s
@@ -52,8 +56,12 @@ struct Parameters {
 /// The keys of sections vessel, material, discretisation, boundary, load and time, bound to `p`.
 ParameterList declare(Parameters& p);
 
+/// The keys of section start.
+ParameterList declare_start(Parameters& p);
+
 /// Checks what one key alone cannot tell (radii, horizon, table, ...) and fills spacing, horizon,
-/// critical_stretch, ramp_time, layer_thickness, end_length and supply_area. Throws InputError with the key
+/// critical_stretch, ramp_time, layer_thickness, end_length, supply_area
+/// and schedule_start. Throws InputError with the key
 /// at fault. Returns warnings.
 std::vector<std::string> resolve(Parameters& p);
 

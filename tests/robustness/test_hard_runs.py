@@ -97,6 +97,44 @@ class HardRuns(unittest.TestCase):
         self.assertTrue(self.record()["status"].startswith("failed: the run became unstable"))
         self.assert_readable()
 
+    def test_quasi_static_start(self):
+        run = self.rhexis("run", "load.schedule=ramp", "load.pressure=400 kPa", "load.ramp_time=4 ms",
+                          "start.equilibrium_pressure=50 kPa")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertRegex(run.stdout, r"start +equilibrium under 50 kPa: \d+ steps")
+        rows = self.assert_readable()
+        first, last = rows[0], rows[-1]
+        self.assertEqual(float(first["time_s"]), 0)
+        self.assertAlmostEqual(float(first["pressure_Pa"]), 50e3, delta=1)
+        self.assertAlmostEqual(float(last["pressure_Pa"]), 50e3 + 100e6 * float(last["time_s"]), delta=1)
+        self.assertEqual(float(first["kinetic_J"]), 0)
+        self.assertAlmostEqual(float(first["external_work_J"]) / float(first["strain_J"]), 1, delta=1e-6)
+        self.assertLess(abs(self.record()["results"]["energy_drift"]), 1e-3)
+
+        for sets, status, words in ((("start.equilibrium_pressure=3 MPa", "load.pressure=3 MPa"), 3, ["does not bear", "lower pressure"]),
+                                    (("start.equilibrium_pressure=30 kPa",), 2, ["start.equilibrium_pressure", "never reaches"])):
+            run = self.rhexis("run", *sets)
+            self.assertEqual(run.returncode, status, run.stderr)
+            for word in words:
+                self.assertIn(word, run.stderr)
+
+    def test_onset_after_a_quasi_static_start_is_that_of_a_slow_ramp(self):
+        wall = ["load.schedule=ramp", "load.pressure=800 kPa", "load.ramp_time=16 ms", "time.end=16 ms",
+                "material.critical_stretch=0.1", "boundary.ends=axial_periodic", "output.fields=[]", "output.every_steps=100000"]
+        pressure = lambda time_s: 800e3 * time_s / 16e-3
+        self.rhexis("run", *wall)
+        slow = self.record()["results"]["rupture_onset_s"]
+        start = 0.85 * pressure(slow)
+        run = self.rhexis("run", *wall, f"start.equilibrium_pressure={start} Pa", "time.end=3 ms")
+        after = self.record()["results"]["rupture_onset_s"]
+        step = self.record()["results"]["time_step_s"]
+        relaxation = int(re.search(r": (\d+) steps of relaxation", run.stdout).group(1))
+        difference = (start + pressure(after)) / pressure(slow) - 1
+        print(f"\nonset at {pressure(slow):.0f} Pa, after the start {difference:+.1e} of it; {slow / step:.0f} steps against "
+              f"{after / step:.0f} and {relaxation} of relaxation", file=sys.stderr)
+        self.assertLess(abs(difference), 0.01)
+        self.assertLess(after / step + relaxation, 0.3 * slow / step)
+
     def test_pressures_from_one_pascal_to_a_gigapascal(self):
         for pressure in ("1 Pa", "1 kPa", "1 MPa", "1 GPa"):
             with self.subTest(pressure):
