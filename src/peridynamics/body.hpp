@@ -109,6 +109,7 @@ class Body {
     double external_work = 0;       ///< J
     double load_speed = 0;          ///< m/s, see ColumnBody
     std::array<double, 3> frame{};  ///< m
+    bool wrapped = false;           ///< see ColumnBody::follow_body
     long frame_phase = 0;           ///< steps since the body's motion was looked at
   };
   virtual BondWordLayout bond_word_layout() const = 0;

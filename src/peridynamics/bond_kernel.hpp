@@ -80,14 +80,25 @@ HWY_INLINE std::uint16_t bits_of(D d, hn::Mask<D> mask, std::size_t first_lane) 
 
 }  // namespace detail
 
+/// Period of wrapped displacements, in spacings: twice as long as the ends of any bond can be moved apart.
+inline constexpr double wrap_period = 256;
+
 /// Breaks what is stretched too far, then adds the forces of what is left. With `observing` also the strain
 /// energy (half of each bond's, its other half belongs to the other end).
-template <class Law, bool observing, class Real>
+/// `wrapped`: displacements are known up to whole periods, so that they keep their digits however far
+/// fragments have flown.
+template <class Law, bool observing, bool wrapped, class Real>
 HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::CappedTag<Real, parallel::block_rows> d;
   using V = hn::Vec<decltype(d)>;
   const V breaking_t = hn::Set(d, block.breaking_t);
+  const auto apart = [&](V there, V here) {
+    const V eta = hn::Sub(there, here);
+    if constexpr (!wrapped) return eta;
+    const V periods = hn::Round(hn::Mul(eta, hn::Set(d, Real(1 / wrap_period))));
+    return hn::NegMulAdd(periods, hn::Set(d, Real(wrap_period)), eta);
+  };
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
     const V ux = hn::LoadU(d, block.u[0] + lane);
     const V uy = hn::LoadU(d, block.u[1] + lane);
@@ -99,9 +110,9 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
       if (word == 0) continue;
       const auto present = detail::lanes_of(d, word, lane);
       const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
-      const V eta_x = hn::Sub(hn::LoadU(d, block.u[0] + there), ux);
-      const V eta_y = hn::Sub(hn::LoadU(d, block.u[1] + there), uy);
-      const V eta_z = hn::Sub(hn::LoadU(d, block.u[2] + there), uz);
+      const V eta_x = apart(hn::LoadU(d, block.u[0] + there), ux);
+      const V eta_y = apart(hn::LoadU(d, block.u[1] + there), uy);
+      const V eta_z = apart(hn::LoadU(d, block.u[2] + there), uz);
       const V xi_x = hn::Set(d, bond.xi[0]);
       const V xi_y = hn::Set(d, bond.xi[1]);
       const V xi_z = hn::Set(d, bond.xi[2]);

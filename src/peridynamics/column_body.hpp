@@ -29,6 +29,9 @@ inline constexpr long frame_interval = 64;
 /// digits.
 inline constexpr double frame_tolerance = 4;
 
+/// Once the body's displacements are this many spacings apart from their middle, they are wrapped.
+inline constexpr double wrap_distance = 512;
+
 /// One block of 16 rows of one owned column: the unit of work.
 struct Unit {
   std::int32_t slot, block;
@@ -165,6 +168,20 @@ class ColumnBody final : public Body {
   }
   void follow_body();
   void fill_padded();
+  /// A component of displacement (m) as bonds read it.
+  Real in_frame(double u, double frame) const {
+    const double x = (u - frame) * inverse_spacing_;
+    return static_cast<Real>(x - wrap_period * std::nearbyint(x * per_period_));
+  }
+  /// What `view` holds, summed by the kernel that its displacements are for.
+  template <bool observing>
+  void sum(Unit unit, BlockSums<Real>& sums) {
+    if (per_period_ > 0) {
+      sum_block<Law, observing, true>(view(unit), sums);
+    } else {
+      sum_block<Law, observing, false>(view(unit), sums);
+    }
+  }
   BlockView<Real> view(Unit unit);
   std::pair<int, int> free_rows(Unit unit, int component) const;
   void family_volumes(Unit unit, double (&intact)[block_rows], double (&whole)[block_rows]) const;
@@ -191,6 +208,7 @@ class ColumnBody final : public Body {
   std::array<Padded, 2> padded_;
   int now_ = 0;
   std::array<double, 3> frame_{};   ///< m, subtracted from u in padded arrays
+  double per_period_ = 0;           ///< 1 / wrap_period where padded arrays are wrapped, or 0
   bool first_kick_pending_ = true;  ///< v_ is at the same time as u_
   long steps_ = 0;
   bool damaged_ = false;

@@ -8,7 +8,7 @@ namespace rhexis::peridynamics {
 template <class Law, class Real>
 void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals) {
   BlockSums<Real> sums;
-  sum_block<Law, true>(view(unit), sums);
+  sum<true>(unit, sums);
   totals.broken += sums.broken;
   totals.crushed += sums.crushed;
 

@@ -76,7 +76,7 @@ template <class Law, class Real>
 void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pressure, double kick,
                                       ThreadEvents& events) {
   BlockSums<Real> sums;
-  sum_block<Law, false>(view(unit), sums);
+  sum<false>(unit, sums);
   if (sums.broken > 0) {
     events.broken += sums.broken;
     if (!damaged_ && !events.damaged) events.damaged = has_ruptured(unit);
@@ -104,7 +104,7 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
     for (int lane = first; lane < past; ++lane) {
       v[lane] += kick * (bond_acceleration * static_cast<double>(sums.force[k][lane]) + share[lane] * load);
       u[lane] += dt * v[lane];
-      out[lane] = static_cast<Real>((u[lane] - frame) * inverse_spacing_);
+      out[lane] = in_frame(u[lane], frame);
       path += share[lane] * v[lane];
       sane &= std::abs(v[lane]) < fastest;
     }

@@ -123,6 +123,33 @@ TEST_P(Extreme, MotionDoesNotKnowHowFarAwayItIs) {
   EXPECT_LT(difference, 1e-5 * largest);
 }
 
+TEST_P(Extreme, FragmentsFarApartGoOnFromARestartBitByBit) {
+  // Halves a thousand spacings apart, beyond what one frame serves in single precision.
+  Parameters p = tube();
+  p.critical_stretch = 0.25;
+  const BodySetup setup = test::setup_at(p, 0.8);
+  const auto straight = make_body(BodySetup(setup), test::self());
+  straight->set_state(test::sample(*straight,
+                                   [&](auto x) {
+                                     const auto u = test::flattened(0.02)(x);
+                                     return std::array{u[0], u[1], x[2] > p.length / 2 ? 0.2 : 0.0};
+                                   }),
+                      test::sample(*straight, test::nothing));
+  for (int i = 0; i < 100; ++i) straight->advance(0, 0);
+  const Body::Saved saved = straight->save();
+  EXPECT_TRUE(saved.wrapped);
+  const auto restarted = make_body(BodySetup(setup), test::self());
+  restarted->restore(saved);
+  for (int i = 0; i < 100; ++i) {
+    straight->advance(0, 0);
+    restarted->advance(0, 0);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto a = straight->displacement()[k], b = restarted->displacement()[k];
+    ASSERT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+  }
+}
+
 struct Spun {
   std::vector<double> radius;  ///< of every particle from the axis, in the end, m
   double angular_momentum_error = 0, energy_error = 0;
