@@ -35,11 +35,13 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
       speed2 += v * v;
     }
   }
+  // Counting what is left of families costs several times what their forces do.
+  const bool unbroken = intact_directed_ == born_directed_ && sums.broken == 0;
   double intact[block_rows], whole[block_rows];
-  family_volumes(unit, intact, whole);
+  if (!unbroken) family_volumes(unit, intact, whole);
   for (int lane = 0; lane < rows; ++lane) {
     const double energy = energy_scale * static_cast<double>(sums.energy[lane]);
-    const double damage = whole[lane] > 0 ? 1 - intact[lane] / whole[lane] : 0;
+    const double damage = !unbroken && whole[lane] > 0 ? 1 - intact[lane] / whole[lane] : 0;
     observation_.strain_energy_density[first + lane] = energy;
     observation_.damage[first + lane] = damage;
     strain += energy;
@@ -53,6 +55,7 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   totals.kinetic.add(0.5 * setup_.density * particle_volume * speed2);
   totals.strain.add(particle_volume * strain);
 
+  if (unbroken) return;
   // A bond took c s0^2 |xi| V_i V_j / 2 to break; each of its ends accounts for half.
   const double s0 = setup_.critical_stretch;
   const double per_weight = 0.25 * energy_scale * s0 * s0 * particle_volume;
