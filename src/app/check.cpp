@@ -12,6 +12,8 @@
 #include "peridynamics/body.hpp"
 #include "peridynamics/bond_kernel.hpp"
 #include "peridynamics/elastic_error.hpp"
+#include "peridynamics/linear_limit.hpp"
+#include "peridynamics/strength.hpp"
 #include "peridynamics/surface_correction.hpp"
 
 namespace rhexis::app {
@@ -88,9 +90,15 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
                            "(surface correction {}, layer {})",
                            100 * error.relative_l2, 100 * error.spread,
                            peridynamics::surface_correction(c.vessel), c.vessel.layer));
+  console.item("strength", peridynamics::describe_strength(c.vessel));
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));
+  const double limit = peridynamics::linear_time_step_limit(
+      peridynamics::make_setup(c.vessel, lattice, families, c.time_step));
+  console.item("instability",
+               fmt::format("begins at {} where strains are small, {:.2f} times the stable step",
+                           quantity(limit, "s"), limit / c.stable_time_step));
   const std::string processors =
       fmt::format("{} rank{} x {} thread{}", comm.size(), comm.size() > 1 ? "s" : "",
                   parallel::thread_count(), parallel::thread_count() > 1 ? "s" : "");

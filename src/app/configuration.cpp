@@ -14,6 +14,7 @@
 #include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
+#include "peridynamics/strength.hpp"
 #include "peridynamics/surface_correction.hpp"
 #include "peridynamics/time_steps.hpp"
 
@@ -133,7 +134,7 @@ ParameterList declare_coupled(Configuration& c) {
 bool ensemble_settles(const std::string& key) {
   return input::section_of(key) == "output" || key == "load.pressure" || key == "load.table" ||
          key == "load.venting" || key == "load.supply_area" || key == "load.discharge_coefficient" ||
-         key == "load.blood_density" || key == "time.step";
+         key == "load.blood_density" || key == "time.step" || key == "time.allow_unstable";
 }
 
 ParameterList declare_ensemble(Configuration& c) {
@@ -152,6 +153,7 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
                                                     {"coupled", declare_coupled(c)},
                                                     {"ensemble", declare_ensemble(c)}};
   for (auto& [name, keys] : models) {
+    if (name == "vessel") append(keys, peridynamics::declare_start(c.vessel));
     if (name != "ensemble") append(keys, insitu::declare(c.insitu));
   }
   std::string model = "vessel";
@@ -292,7 +294,13 @@ void resolve_coupling(Configuration& c) {
   c.vessel.blood_density = c.hemodynamics.density;
   c.network.wall.young_modulus = c.vessel.young_modulus;
   c.network.wall.poisson_ratio = peridynamics::Pmb::poisson_ratio;
-  c.screening.critical_stretch = c.vessel.critical_stretch;
+  if (c.vessel.energy_release_rate && !c.vessel.horizon)
+    throw InputError(
+        "before the network is solved no spacing is known, and so no critical stretch; give "
+        "discretisation.horizon, or material.critical_stretch",
+        "material.energy_release_rate");
+  peridynamics::settle_critical_stretch(c.vessel);
+  c.screening.critical_stretch = *c.vessel.critical_stretch;
   if (p.events > 0 && c.network.source == "tree" && c.network.tier != "explicit")
     throw InputError("a cascade needs network.tier = \"explicit\"", "cascade.events");
   if (p.events > 0 && c.hemodynamics.phase_separation)
@@ -325,6 +333,7 @@ void resolve_wall(Configuration& c) {
 ParameterList declare(Configuration& c) {
   ParameterList all = declare_scene(c);
   append(all, declare_vessel(c));
+  append(all, peridynamics::declare_start(c.vessel));
   append(all, declare_network(c));
   append(all, coupling::declare(c.coupling));
   append(all, ensemble::declare(c.ensemble));

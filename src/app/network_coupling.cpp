@@ -65,7 +65,7 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
   comm_.all_reduce(values, parallel::Reduce::sum);
   data_ = {values[0], values[1], values[2]};
   load_.pressure = {values[3], values[4], values[5]};
-  c_.vessel.critical_stretch *= values[6];
+  *c_.vessel.critical_stretch *= values[6];
   try {
     piece_ = coupling::hand_over(data_, c_.coupling.resolution == "paper", c_.vessel);
   } catch (const InputError& error) {

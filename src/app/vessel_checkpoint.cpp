@@ -33,7 +33,7 @@ std::string body_description(const Configuration& c) {
     values["vessel"] = {{"inner_radius", c.vessel.inner_radius},
                         {"outer_radius", c.vessel.outer_radius},
                         {"length", c.vessel.length},
-                        {"critical_stretch", c.vessel.critical_stretch}};
+                        {"critical_stretch", *c.vessel.critical_stretch}};
   }
   return values.dump();
 }
@@ -57,6 +57,7 @@ void VesselRun::write_checkpoint(long step) {
   file.write("body", body_description(c_));
   file.write("time_step", c_.time_step);
   file.write("frame_phase", std::int64_t{saved.frame_phase});
+  file.write("wrapped", std::int64_t{saved.wrapped});
   file.write("first_kick_pending", std::int64_t{saved.first_kick_pending});
   file.write("external_work", saved.external_work);
   file.write("load_speed", saved.load_speed);
@@ -80,7 +81,7 @@ void VesselRun::read_checkpoint() {
   output::CheckpointReader file(options_.restart, comm_);
   peridynamics::Body::Saved saved = body_->save();
   double time_step = 0, onset = absent, first_break = absent, onset_displacement = absent;
-  std::int64_t pending = 0, step = 0, frame_phase = 0;
+  std::int64_t pending = 0, step = 0, frame_phase = 0, wrapped = 0;
   file.read("step", step);
   first_step_ = static_cast<long>(step);
   if (first_step_ >= c_.steps) {
@@ -101,6 +102,8 @@ void VesselRun::read_checkpoint() {
   }
   file.read("frame_phase", frame_phase);
   saved.frame_phase = static_cast<long>(frame_phase);
+  file.read("wrapped", wrapped);
+  saved.wrapped = wrapped != 0;
   file.read("first_kick_pending", pending);
   saved.first_kick_pending = pending != 0;
   file.read("external_work", saved.external_work);

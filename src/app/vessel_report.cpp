@@ -3,6 +3,7 @@
 
 #include "app/vessel_run.hpp"
 #include "core/format.hpp"
+#include "peridynamics/strength.hpp"
 
 namespace rhexis::app {
 
@@ -30,6 +31,7 @@ void VesselRun::say_header() {
   }
   console_.item("bonds", fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
                                      *results_.family_max, v.bond_precision));
+  console_.item("strength", peridynamics::describe_strength(v));
   console_.item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
                                     quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
                                     quantity(c_.stable_time_step, "s")));

@@ -33,7 +33,11 @@ class VesselRun : private RunBase {
   void build();
   void open_results();
   void say_header();
+  void start_at_equilibrium();
   void time_loop();
+  void check_balance(long step, const peridynamics::Totals& t) const;
+  bool balance_due(long step) const;
+  void warn_of_crushed_bonds(long step, const peridynamics::Totals& t);
   void observe(long step, bool with_output, bool with_pictures);
   bool pictures_due(long step, bool output_due);
   void take_notice(long step, std::uint64_t flags);
@@ -43,7 +47,9 @@ class VesselRun : private RunBase {
   void write_checkpoint(long step);
   void read_checkpoint();
   void say_summary();
-  std::optional<std::int64_t> bond_evaluations() const override { return body_->bond_evaluations(); }
+  std::optional<std::int64_t> bond_evaluations() const override {
+    return start_bond_evaluations_ + body_->bond_evaluations();
+  }
   double pressure_at(long step) const;
   double time_at(long step) const { return static_cast<double>(step) * c_.time_step; }
 
@@ -57,8 +63,9 @@ class VesselRun : private RunBase {
   std::optional<output::PointSeries> series_;
   std::optional<output::History> history_;
 
+  std::int64_t start_bond_evaluations_ = 0;
   long first_step_ = 0, step_ = 0;
-  bool interrupted_ = false;
+  bool interrupted_ = false, crushing_was_said_ = false;
   double open_area_ = 0;                 ///< m2
   double vent_now_ = 1, vent_next_ = 1;  ///< shares of the scheduled pressure, at t_n and t_{n+1}
   double least_vent_ = 1;

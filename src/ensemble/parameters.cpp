@@ -27,7 +27,7 @@ ParameterList declare(Parameters& p) {
        "", Range::not_negative()},
       {"ensemble.strength_spread", &p.strength_spread, "1", "0",
        "Coefficient of variation of the walls' critical stretch: a lognormal factor of mean 1 on "
-       "material.critical_stretch.",
+       "material.critical_stretch, or on the one that material.energy_release_rate gives the mean wall.",
        "", Range::between(0, 1)},
       {"ensemble.thickness_spread", &p.thickness_spread, "1", "0",
        "The same of their thickness, with the lumen as it is: the outer radius is r0 + f (r1 - r0).", "",

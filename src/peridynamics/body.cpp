@@ -1,6 +1,7 @@
 #include "peridynamics/body.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "peridynamics/column_body_observe.hpp"
 #include "peridynamics/column_body_state.hpp"
@@ -18,17 +19,27 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families
   setup.end_length = *p.end_length;
   setup.density = p.density;
   setup.bond_constant = Pmb::bond_constant(p.young_modulus, *p.horizon);
-  setup.critical_stretch = p.critical_stretch;
+  setup.critical_stretch = *p.critical_stretch;
   setup.time_step = time_step;
   // Strain energy of the whole wall at the critical stretch, or the pressure on as much: what happens stays
   // within some powers of ten of it.
   const double volume = static_cast<double>(setup.lattice.particles()) * setup.lattice.volume(0);
   setup.energy_scale =
-      std::max(p.young_modulus * p.critical_stretch * p.critical_stretch, p.pressure) * volume;
+      std::max(p.young_modulus * *p.critical_stretch * *p.critical_stretch, p.pressure) * volume;
   setup.double_bonds = p.bond_precision == "double";
   setup.heterogeneity = Heterogeneity(p);
   setup.thin_spots = ThinSpots(p, setup.lattice, setup.layer);
   return setup;
+}
+
+std::pair<std::int64_t, std::int64_t> free_rows(const BodySetup& setup, int component) {
+  const std::int64_t rows = setup.lattice.rows;
+  const bool held =
+      setup.ends == EndCondition::clamped || (setup.ends == EndCondition::sliding && component == 2);
+  if (!held) return {0, rows};
+  const auto first =
+      static_cast<std::int64_t>(std::ceil(setup.end_length / setup.lattice.row_spacing - 1e-9));
+  return {first, std::max(first, rows - first)};
 }
 
 std::unique_ptr<Body> make_body(BodySetup setup, parallel::Communicator comm) {

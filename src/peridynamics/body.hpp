@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/field_view.hpp"
@@ -46,7 +47,10 @@ struct Totals {
   double max_displacement = 0;                                      ///< m
   double max_damage = 0;
   std::int64_t broken_bonds = 0;  ///< undirected
-  double rupture_length = 0;      ///< m, axial extent of damage >= rupture_damage, reference rows
+  /// Undirected, shorter than half their length: across such a bond the force turns faster than the bond's
+  /// stiffness, for which alone the time step is known to be stable.
+  std::int64_t crushed_bonds = 0;
+  double rupture_length = 0;  ///< m, axial extent of damage >= rupture_damage, reference rows
 };
 
 /// Whether the energies fit the work done. Energy out of nowhere, or none to speak of, is the surest sign of
@@ -108,6 +112,7 @@ class Body {
     double external_work = 0;       ///< J
     double load_speed = 0;          ///< m/s, see ColumnBody
     std::array<double, 3> frame{};  ///< m
+    bool wrapped = false;           ///< see ColumnBody::follow_body
     long frame_phase = 0;           ///< steps since the body's motion was looked at
   };
   virtual BondWordLayout bond_word_layout() const = 0;
@@ -130,6 +135,10 @@ struct BodySetup {
   Heterogeneity heterogeneity = {};
   ThinSpots thin_spots = {};
 };
+
+/// Rows of the whole body, [first, past), whose motion along axis `component` the ends do not hold: clamped
+/// ends hold all components, sliding ones the axial one.
+std::pair<std::int64_t, std::int64_t> free_rows(const BodySetup& setup, int component);
 
 /// The setup that resolved parameters describe.
 BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families, double time_step);

@@ -55,6 +55,7 @@ struct BlockSums {
   alignas(64) Real force[3][parallel::block_rows];
   alignas(64) Real energy[parallel::block_rows];  ///< filled when observing only
   int broken = 0;                                 ///< directed bonds that broke now
+  int crushed = 0;  ///< directed bonds shorter than half their length; counted when observing only
 };
 
 /// Floating-point operations of one bond when it pulls: 9 for eta, y and xi + y, 6 for t, 12 for g(t), 1 for
@@ -88,15 +89,25 @@ HWY_INLINE std::uint16_t bits_of(D d, hn::Mask<D> mask, std::size_t first_lane) 
 
 }  // namespace detail
 
+/// Period of wrapped displacements, in spacings: twice as long as the ends of any bond can be moved apart.
+inline constexpr double wrap_period = 256;
+
 /// Breaks what is stretched too far, then adds the forces of what is left. With `observing` also the strain
-/// energy (half of each bond's, its other half belongs to the other end). Only a `heterogeneous` wall pays
-/// for properties by place.
-template <class Law, bool observing, bool heterogeneous, class Real>
+/// energy (half of each bond's, its other half belongs to the other end).
+/// `heterogeneous`: properties differ by place; only such a wall pays for them. `wrapped`: displacements are
+/// known up to whole periods, so that they keep their digits however far fragments have flown.
+template <class Law, bool observing, bool heterogeneous, bool wrapped, class Real>
 HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::CappedTag<Real, parallel::block_rows> d;
   using V = hn::Vec<decltype(d)>;
   const V uniform_breaking_t = hn::Set(d, block.breaking_t);
+  const auto apart = [&](V there, V here) {
+    const V eta = hn::Sub(there, here);
+    if constexpr (!wrapped) return eta;
+    const V periods = hn::Round(hn::Mul(eta, hn::Set(d, Real(1 / wrap_period))));
+    return hn::NegMulAdd(periods, hn::Set(d, Real(wrap_period)), eta);
+  };
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
     const V ux = hn::LoadU(d, block.u[0] + lane);
     const V uy = hn::LoadU(d, block.u[1] + lane);
@@ -113,9 +124,9 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
       if (word == 0) continue;
       const auto present = detail::lanes_of(d, word, lane);
       const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
-      const V eta_x = hn::Sub(hn::LoadU(d, block.u[0] + there), ux);
-      const V eta_y = hn::Sub(hn::LoadU(d, block.u[1] + there), uy);
-      const V eta_z = hn::Sub(hn::LoadU(d, block.u[2] + there), uz);
+      const V eta_x = apart(hn::LoadU(d, block.u[0] + there), ux);
+      const V eta_y = apart(hn::LoadU(d, block.u[1] + there), uy);
+      const V eta_z = apart(hn::LoadU(d, block.u[2] + there), uz);
       const V xi_x = hn::Set(d, bond.xi[0]);
       const V xi_y = hn::Set(d, bond.xi[1]);
       const V xi_z = hn::Set(d, bond.xi[2]);
@@ -152,6 +163,8 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
         V w = hn::Mul(Law::energy_factor(d, t), hn::Set(d, bond.energy_weight));
         if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
         energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
+        const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
+        sums.crushed += static_cast<int>(hn::CountTrue(d, crushed));
       }
     }
     hn::Store(fx, d, sums.force[0] + lane);

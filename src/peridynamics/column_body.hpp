@@ -29,6 +29,9 @@ inline constexpr long frame_interval = 64;
 /// digits.
 inline constexpr double frame_tolerance = 4;
 
+/// Once the body's displacements are this many spacings apart from their middle, they are wrapped.
+inline constexpr double wrap_distance = 512;
+
 /// One block of 16 rows of one owned column: the unit of work.
 struct Unit {
   std::int32_t slot, block;
@@ -47,7 +50,7 @@ struct ThreadTotals {
   explicit ThreadTotals(double scale) : kinetic(scale), strain(scale), fracture(scale) {}
   ExactSum kinetic, strain, fracture;
   double max_damage = 0;
-  std::int64_t broken = 0;
+  std::int64_t broken = 0, crushed = 0;
   std::int64_t ruptured_first = INT64_MAX, ruptured_last = -1;
 };
 
@@ -189,7 +192,13 @@ class ColumnBody final : public Body {
   }
   void follow_body();
   void fill_padded();
+  /// A component of displacement (m) as bonds read it.
+  Real in_frame(double u, double frame) const {
+    const double x = (u - frame) * inverse_spacing_;
+    return static_cast<Real>(x - wrap_period * std::nearbyint(x * per_period_));
+  }
   BlockView<Real> view(Unit unit);
+  /// What `view` holds, summed by the kernel that it is for.
   template <bool observing>
   void sum(Unit unit, BlockSums<Real>& sums);
   double breaking_energy(Unit unit, const BondConstants<Real>& bond, std::uint16_t broken) const;
@@ -221,6 +230,7 @@ class ColumnBody final : public Body {
   std::array<Padded, 2> padded_;
   int now_ = 0;
   std::array<double, 3> frame_{};   ///< m, subtracted from u in padded arrays
+  double per_period_ = 0;           ///< 1 / wrap_period where padded arrays are wrapped, or 0
   bool first_kick_pending_ = true;  ///< v_ is at the same time as u_
   long steps_ = 0;
   bool damaged_ = false;

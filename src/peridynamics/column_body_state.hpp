@@ -114,7 +114,7 @@ void ColumnBody<Law, Real>::make_thin_spots() {
 }
 
 /// Moves the frame to the middle of the body's displacements, found from exact minima and maxima so that
-/// every partition takes the same.
+/// every partition takes the same; has them wrapped once fragments are so far apart that no frame serves all.
 template <class Law, class Real>
 void ColumnBody<Law, Real>::follow_body() {
   double extremes[6];
@@ -127,6 +127,10 @@ void ColumnBody<Law, Real>::follow_body() {
   bool moved = false;
   for (int k = 0; k < 3; ++k) {
     const double middle = 0.5 * (extremes[3 + k] - extremes[k]);
+    if (per_period_ == 0 && extremes[3 + k] - middle > wrap_distance * setup_.lattice.spacing) {
+      per_period_ = 1 / wrap_period;
+      moved = true;
+    }
     if (std::abs(middle - frame_[k]) > frame_tolerance * setup_.lattice.spacing) {
       frame_[k] = middle;
       moved = true;
@@ -144,7 +148,7 @@ void ColumnBody<Law, Real>::fill_padded() {
         Real* out = copy[k].get() + domain_.padded(static_cast<std::size_t>(c));
         const double* in = u_[k].data() + c * layout.row_count;
         for (std::int64_t r = 0; r < layout.row_count; ++r) {
-          out[r] = static_cast<Real>((in[r] - frame_[k]) * inverse_spacing_);
+          out[r] = in_frame(in[r], frame_[k]);
         }
       }
     }
@@ -166,7 +170,8 @@ BondWordLayout ColumnBody<Law, Real>::bond_word_layout() const {
 
 template <class Law, class Real>
 Body::Saved ColumnBody<Law, Real>::save() const {
-  Saved saved{u_, v_, {}, first_kick_pending_, 0, load_speed_, frame_, steps_ % frame_interval};
+  Saved saved{
+      u_, v_, {}, first_kick_pending_, 0, load_speed_, frame_, per_period_ > 0, steps_ % frame_interval};
   saved.external_work = external_work();
   saved.words.reserve(intact_.size());
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
@@ -187,6 +192,7 @@ void ColumnBody<Law, Real>::restore(const Saved& saved) {
   work_before_ = saved.external_work;
   load_speed_ = saved.load_speed;
   frame_ = saved.frame;
+  per_period_ = saved.wrapped ? 1 / wrap_period : 0;
   steps_ = saved.frame_phase;
   auto word = saved.words.begin();
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {

@@ -20,28 +20,25 @@ BlockView<Real> ColumnBody<Law, Real>::view(Unit unit) {
 template <class Law, class Real>
 template <bool observing>
 void ColumnBody<Law, Real>::sum(Unit unit, BlockSums<Real>& sums) {
+  const bool wrapped = per_period_ > 0;
   if (half_stretch_.empty()) {
-    sum_block<Law, observing, false>(view(unit), sums);
+    wrapped ? sum_block<Law, observing, false, true>(view(unit), sums)
+            : sum_block<Law, observing, false, false>(view(unit), sums);
   } else {
-    sum_block<Law, observing, true>(view(unit), sums);
+    wrapped ? sum_block<Law, observing, true, true>(view(unit), sums)
+            : sum_block<Law, observing, true, false>(view(unit), sums);
   }
 }
 
-/// Rows of a unit, [first, past), whose motion along axis `component` the ends do not hold: clamped ends hold
-/// all components, sliding ones the axial one.
+/// Rows of a unit, [first, past), whose motion along axis `component` the ends do not hold.
 template <class Law, class Real>
 std::pair<int, int> ColumnBody<Law, Real>::free_rows(Unit unit, int component) const {
-  const int rows = domain_.rows_in(unit.block);
-  const bool held =
-      setup_.ends == EndCondition::clamped || (setup_.ends == EndCondition::sliding && component == 2);
-  if (!held) return {0, rows};
-  const auto held_rows =
-      static_cast<std::int64_t>(std::ceil(setup_.end_length / setup_.lattice.row_spacing - 1e-9));
-  const std::int64_t first = domain_.layout().first_row + unit.block * block_rows;
+  const auto [first, past] = peridynamics::free_rows(setup_, component);
+  const std::int64_t begin = domain_.layout().first_row + unit.block * block_rows;
   const auto local = [&](std::int64_t row) {
-    return static_cast<int>(std::clamp<std::int64_t>(row - first, 0, rows));
+    return static_cast<int>(std::clamp<std::int64_t>(row - begin, 0, domain_.rows_in(unit.block)));
   };
-  return {local(held_rows), std::max(local(held_rows), local(domain_.layout().rows - held_rows))};
+  return {local(first), local(past)};
 }
 
 /// Sums of V_j / spacing^3 over each row's unbroken bonds and over all it was born with.
@@ -123,7 +120,7 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
     for (int lane = first; lane < past; ++lane) {
       v[lane] += kick * (bond_acceleration * static_cast<double>(sums.force[k][lane]) + share[lane] * load);
       u[lane] += dt * v[lane];
-      out[lane] = static_cast<Real>((u[lane] - frame) * inverse_spacing_);
+      out[lane] = in_frame(u[lane], frame);
       path += share[lane] * v[lane];
       sane &= std::abs(v[lane]) < fastest;
     }

@@ -7,6 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "peridynamics/schedule.hpp"
+#include "peridynamics/strength.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -33,8 +35,13 @@ ParameterList declare(Parameters& p) {
       {"material.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"",
        "Young's modulus of the wall; Poisson's ratio is 1/4 in the bond-based law.", "Table 2, Eq. (4)",
        Range::positive()},
-      {"material.critical_stretch", &p.critical_stretch, "1", "0.25", "Stretch at which a bond breaks, s0.",
+      {"material.critical_stretch", &p.critical_stretch, "1", "\"auto\"",
+       "Stretch at which a bond breaks, s0; \"auto\" is what energy_release_rate gives, or 0.25.",
        "Table 2, Eq. (5)", Range::between(1e-6, 10)},
+      {"material.energy_release_rate", &p.energy_release_rate, "J/m2", "\"auto\"",
+       "Work to tear a unit of area, G0, in place of critical_stretch: s0 = sqrt(5 G0 / (6 E delta)) then "
+       "follows the horizon.",
+       "Silling & Askari 2005, with Eq. (4)", Range::positive()},
 
       {"discretisation.cross_section",
        &p.cross_section,
@@ -160,10 +167,25 @@ ParameterList declare(Parameters& p) {
        "Share of the stable time step that \"auto\" takes.",
        "",
        {.lower = 0, .upper = 1, .lower_open = true}},
+      {"time.allow_unstable", &p.allow_unstable, "", "false",
+       "Take a time.step above the stable one all the same: to see where instability begins.", ""},
   };
   std::ranges::copy(declare(p.scatter), std::back_inserter(all));
   std::ranges::copy(declare(p.spots), std::back_inserter(all));
   return all;
+}
+
+ParameterList declare_start(Parameters& p) {
+  return {
+      {"start.equilibrium_pressure", &p.equilibrium_pressure, "Pa", "\"0 Pa\"",
+       "The run starts with the wall at rest in static equilibrium under this pressure, at the moment at "
+       "which "
+       "the schedule first has it; 0: from the unloaded wall.",
+       "", Range::not_negative()},
+      {"start.tolerance", &p.equilibrium_tolerance, "1", "1e-4",
+       "Largest force on a particle left over in that equilibrium, relative to the force of the load.", "",
+       Range::between(1e-12, 0.1)},
+  };
 }
 
 double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles) {
@@ -272,8 +294,10 @@ std::vector<std::string> resolve(Parameters& p) {
                      "discretisation.surface_correction");
   }
   resolve_spacing(p);
+  settle_critical_stretch(p);
   if (p.length < *p.spacing) throw InputError("the vessel is shorter than one spacing", "vessel.length");
   resolve_load(p);
+  if (p.equilibrium_pressure > 0) p.schedule_start = time_of_pressure(p, p.equilibrium_pressure);
   resolve_ends(p);
 
   const double wall = p.outer_radius - p.inner_radius;

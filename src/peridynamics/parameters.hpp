@@ -19,7 +19,8 @@ struct Parameters {
 
   double density = 0;        ///< kg/m3
   double young_modulus = 0;  ///< Pa; Poisson's ratio is 1/4 in the bond-based law
-  double critical_stretch = 0;
+  std::optional<double> critical_stretch;
+  std::optional<double> energy_release_rate;  ///< J/m2; empty once critical_stretch has been found from it
 
   std::string cross_section;       ///< "lattice" | "polar"
   std::string surface_correction;  ///< see surface_correction.hpp
@@ -34,6 +35,10 @@ struct Parameters {
   std::string ends;                  ///< see EndCondition
   std::optional<double> end_length;  ///< m held at each end
 
+  double equilibrium_pressure = 0;  ///< Pa, 0: the run starts from the unloaded wall
+  double equilibrium_tolerance = 0;
+  double schedule_start = 0;  ///< s of the schedule at which the run starts
+
   double pressure = 0;                    ///< Pa
   std::string schedule;                   ///< "step" | "ramp" | "smooth_ramp" | "table"
   std::optional<double> ramp_time;        ///< s
@@ -47,6 +52,7 @@ struct Parameters {
 
   std::optional<double> time_step;  ///< s
   double step_fraction = 0;
+  bool allow_unstable = false;
   double end_time = 0;  ///< s
 
   Scatter scatter;
@@ -57,9 +63,12 @@ struct Parameters {
 /// `p`.
 ParameterList declare(Parameters& p);
 
-/// Checks what one key alone cannot tell (radii, horizon, table, ...) and fills spacing, horizon, ramp_time,
-/// layer_thickness, end_length, supply_area and correlation_length. Throws InputError with the key at fault.
-/// Returns warnings.
+/// The keys of section start.
+ParameterList declare_start(Parameters& p);
+
+/// Checks what one key alone cannot tell (radii, horizon, table, ...) and fills spacing, horizon,
+/// critical_stretch, ramp_time, layer_thickness, end_length, supply_area, schedule_start and
+/// correlation_length. Throws InputError with the key at fault. Returns warnings.
 std::vector<std::string> resolve(Parameters& p);
 
 /// Spacing (m) that cuts the wall's volume into `particles` cubes, Sec. 3.3: (pi (r1^2 - r0^2) L / N)^(1/3).

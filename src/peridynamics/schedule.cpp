@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+
+#include "core/error.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -17,17 +20,41 @@ double interpolate(const std::vector<CurvePoint>& table, double time) {
   return before->second + share * (after->second - before->second);
 }
 
+/// First time at which the table reaches `pressure` from below; empty where it does not.
+std::optional<double> time_in(const std::vector<CurvePoint>& table, double pressure) {
+  if (table.front().second >= pressure) return table.front().first;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const auto [time, before] = table[i - 1];
+    const auto [end, after] = table[i];
+    if (after >= pressure) return time + (pressure - before) / (after - before) * (end - time);
+  }
+  return {};
+}
+
 }  // namespace
 
 double schedule_share(const Parameters& p, double time_s) {
   if (p.schedule == "step") return 1;
-  const double share = std::clamp(time_s / *p.ramp_time, 0.0, 1.0);
+  const double share = std::clamp((p.schedule_start + time_s) / *p.ramp_time, 0.0, 1.0);
   return p.schedule == "smooth_ramp" ? 0.5 * (1 - std::cos(std::numbers::pi * share)) : share;
 }
 
 double scheduled_pressure(const Parameters& p, double time_s) {
-  if (p.schedule == "table") return interpolate(p.table, time_s);
+  if (p.schedule == "table") return interpolate(p.table, p.schedule_start + time_s);
   return p.pressure * schedule_share(p, time_s);
+}
+
+double time_of_pressure(const Parameters& p, double pressure) {
+  const InputError never("the schedule never reaches this pressure", "start.equilibrium_pressure");
+  if (p.schedule == "table") {
+    const std::optional<double> time = time_in(p.table, pressure);
+    if (!time) throw never;
+    return *time;
+  }
+  if (pressure > p.pressure) throw never;
+  if (p.schedule == "step") return 0;
+  const double share = pressure / p.pressure;
+  return *p.ramp_time * (p.schedule == "smooth_ramp" ? std::acos(1 - 2 * share) / std::numbers::pi : share);
 }
 
 }  // namespace rhexis::peridynamics

@@ -13,6 +13,10 @@ double schedule_share(const Parameters& p, double time_s);
 ///   ramp         P t/T for t < T, then P
 ///   smooth_ramp  P (1 - cos(pi t/T))/2 for t < T, then P
 ///   table        linear between points, constant outside
+/// with t counted from schedule_start.
 double scheduled_pressure(const Parameters& p, double time_s);
+
+/// When, in s, the schedule first has `pressure` (Pa; 0 for "step"). Throws InputError where it never has.
+double time_of_pressure(const Parameters& p, double pressure);
 
 }  // namespace rhexis::peridynamics

@@ -15,7 +15,7 @@ TimeSteps time_steps(const Parameters& p, const Lattice& lattice, const BondFami
   t.stable = stable_time_step(lattice, families, Pmb::bond_constant(p.young_modulus, *p.horizon), p.density) /
              std::sqrt(Heterogeneity(p).largest_stiffness(lattice));
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
-  if (t.step > t.stable) {
+  if (t.step > t.stable && !p.allow_unstable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +
                          quantity(0.9995 * t.stable, "s", 3) + "; take less, or \"auto\" for " +
                          quantity(p.step_fraction * t.stable, "s"),

@@ -5,8 +5,11 @@
 
 namespace rhexis::peridynamics {
 
+/// `stable` bounds the stiffness of every bond by c/|xi| in all directions. Along a PMB bond that is its
+/// stiffness at any strain; across it the stiffness is (c/|xi|) s/(1 + s), which is less while s > -1/2: so
+/// the step holds at finite strain too, until bonds are crushed to half their length (Totals::crushed_bonds).
 struct TimeSteps {
-  double stable = 0;  ///< s, the longest stable step
+  double stable = 0;  ///< s, a bound below the longest stable step (see linear_limit.hpp)
   double step = 0;    ///< s, the one to take
   long count = 0;     ///< of them until time.end, the last one whole
 };

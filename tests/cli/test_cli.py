@@ -103,6 +103,10 @@ WRONG_INPUTS = [
     ("spot of no thickness", GOOD + '[[spot]]\nposition = "1 mm"\nradius = "1 mm"\nthickness = 0.1\n', [":23:", "thickness", "spacing"]),
     ("scatter of another law", GOOD + '[scatter]\nlaw = "gauss"\n', [":21:", "scatter.law", "weibull"]),
     ("critical stretch of zero", GOOD + "[material]\ncritical_stretch = 0\n", ["critical_stretch"]),
+    ("energy release rate and critical stretch", GOOD + '[material]\ncritical_stretch = 0.2\nenergy_release_rate = "90 J/m2"\n',
+     ["energy_release_rate", "both"]),
+    ("energy release rate without unit", GOOD + '[material]\nenergy_release_rate = "90"\n', ["energy_release_rate", "unit"]),
+    ("energy release rate beyond all stretches", GOOD + '[material]\nenergy_release_rate = "1 MJ/m2"\n', ["energy_release_rate", "stretch of"]),
     ("missing script", GOOD + '[insitu]\nscripts = ["nowhere.py"]\n', ["insitu.scripts", "nowhere.py"]),
 ]
 
@@ -157,6 +161,17 @@ class Cli(unittest.TestCase):
         for text in ("11,000", "100 um", "350 um", "0.73 % off Lame", "stable"):
             self.assertIn(text, result.stdout)
         self.assertEqual(os.listdir(self.folder.name), ["vessel.toml"])
+
+    def test_strength_by_energy_release_rate(self):
+        # s0 = sqrt(5 G0 / (6 E delta)).
+        self.write(GOOD)
+        for horizon, s0 in (("350 um", "0.2474"), ("280 um", "0.2766")):
+            sets = ["--set", "material.energy_release_rate=90 J/m2", "--set", f"discretisation.horizon={horizon}"]
+            for command in ("check", "run"):
+                said = self.rhexis(command, "vessel.toml", *sets).stdout
+                self.assertIn(f"critical stretch {s0}", said)
+                self.assertIn("90 J/m2", said)
+        self.assertIn("energy release rate 91.87 J/m2", self.rhexis("check", "vessel.toml").stdout)
 
     # -- wrong input ---------------------------------------------------------------------------------------------
 

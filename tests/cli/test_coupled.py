@@ -130,6 +130,8 @@ CUFF = '[body]\ncompression = "10 mmHg"\n'
 BY_TWO_RANKS = {"id beyond the last", "absent from the file", "rows of a piece", "collapse", "checkpoints of two-way coupling"}
 # name, input, what the message says: file, line, key and value, as a regular expression, and what is allowed; other files
 WRONG = [
+    ("energy release rate without horizon", changed(TWO_WAY, "critical_stretch", 'energy_release_rate = "1 J/m2"'),
+     [r'c\.toml:\d+: material\.energy_release_rate = "1 J/m2": ', "discretisation.horizon"]),
     ("id beyond the last", changed(TREE, "vessel", 'vessel = "8190"'), [r'c\.toml:18: coupling\.vessel = "8190": ', "0 to 8189"]),
     ("path with a two", changed(TREE, "vessel", 'vessel = "artery.0120"'), [r'c\.toml:18: coupling\.vessel = "artery.0120": ', "0 and 1"]),
     ("absent from the file", changed(TWO_WAY, "vessel", 'vessel = "nerve"'), [r'c\.toml:12: coupling\.vessel = "nerve": ', r"v\.csv"]),

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "peridynamics/equilibrium.hpp"
 #include "peridynamics/opening.hpp"
 #include "support/vessels.hpp"
 
@@ -99,6 +100,27 @@ TEST_P(Invariance, BitIdentical) {
       const double damage = together.seen.damage[here], expected = alone.seen.damage[there];
       ASSERT_TRUE(damage == expected || (std::isnan(damage) && std::isnan(expected)));
       ASSERT_EQ(together.seen.strain_energy_density[here], alone.seen.strain_energy_density[there]);
+    }
+  }
+}
+
+TEST_P(Invariance, EquilibriumIsBitIdentical) {
+  const auto find = [&](parallel::Communicator comm, int threads) {
+    omp_set_num_threads(threads);
+    return find_equilibrium(test::setup_of(parameters(GetParam()), 1e-6), 30e3, 1e-3, comm);
+  };
+  const Equilibrium alone = find(test::self(), 1), together = find(parallel::Communicator::world(), 2);
+  EXPECT_EQ(alone.steps, together.steps);
+  EXPECT_EQ(alone.residual, together.residual);
+  EXPECT_EQ(alone.strain_energy, together.strain_energy);
+  const auto body = make_body(test::setup_of(parameters(GetParam()), 1e-6), parallel::Communicator::world());
+  const PointLayout& mine = body->layout();
+  for (std::int64_t c = 0; c < mine.column_count; ++c) {
+    for (std::int64_t r = 0; r < mine.row_count; ++r) {
+      const auto here = static_cast<std::size_t>(c * mine.row_count + r);
+      const auto there = static_cast<std::size_t>((mine.first_column + c) * mine.rows + mine.first_row + r);
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_EQ(together.displacement[k][here], alone.displacement[k][there]);
     }
   }
 }

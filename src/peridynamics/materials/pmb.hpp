@@ -10,6 +10,7 @@
 
 #include <hwy/highway.h>
 
+#include <cmath>
 #include <numbers>
 #include <type_traits>
 
@@ -22,6 +23,20 @@ struct Pmb {
   static double bond_constant(double young_modulus, double horizon) {
     const double h2 = horizon * horizon;
     return 6 * young_modulus / (std::numbers::pi * h2 * h2 * (1 - 2 * poisson_ratio));
+  }
+
+  /// G0 (J/m2), the work to break all bonds across a unit of area (Silling & Askari 2005): of w = c s0^2 r/2
+  /// a bond of length r, summed over depths z before the plane and caps of directions beyond it,
+  ///   G0 = int_0^delta dz int_z^delta (c s0^2 r/2) 2 pi r^2 (1 - z/r) dr = pi c s0^2 delta^5 / 10;
+  /// with Eq. (4) and nu = 1/4, c = 12 E / (pi delta^4), that is 6 E s0^2 delta / 5.
+  static double energy_release_rate(double young_modulus, double horizon, double critical_stretch) {
+    return bond_constant(young_modulus, horizon) * std::numbers::pi * critical_stretch * critical_stretch *
+           std::pow(horizon, 5) / 10;
+  }
+
+  /// s0 of a wall that takes G0 to tear: the inverse, sqrt(5 G0 / (6 E delta)).
+  static double critical_stretch(double young_modulus, double horizon, double energy_release_rate) {
+    return std::sqrt(5 * energy_release_rate / (6 * young_modulus * horizon));
   }
 
   /// Eq. (5) in terms of t.
@@ -40,8 +55,9 @@ struct Pmb {
     namespace hn = hwy::HWY_NAMESPACE;
     using Real = hn::TFromD<D>;
     const V one = hn::Set(d, Real{1});
-    // Particles on top of each other would divide by zero; their bond then has a large but finite force.
-    const V a = hn::Max(hn::Add(one, t), hn::Set(d, Real(1e-10)));
+    // Within a thousandth of a bond's length, where t has lost the digits that 1 + t needs, the force falls
+    // to zero with the distance instead of staying c: particles may lie on top of each other.
+    const V a = hn::Max(hn::Add(one, t), hn::Set(d, Real(1e-6)));
     if constexpr (std::is_same_v<Real, double>) {
       return hn::Div(t, hn::Add(a, hn::Sqrt(a)));
     } else {

@@ -67,7 +67,7 @@ TEST(Walls, WithoutSpreadAWallIsTheMeanToTheLastBit) {
 TEST(Walls, FactorsChangeTheirPropertyAlone) {
   const peridynamics::Parameters v = mean_vessel();
   const peridynamics::Parameters w = with_wall(v, {.strength = 0.5, .thickness = 1.2, .stiffness = 2});
-  EXPECT_DOUBLE_EQ(w.critical_stretch, 0.5 * v.critical_stretch);
+  EXPECT_DOUBLE_EQ(*w.critical_stretch, 0.5 * *v.critical_stretch);
   EXPECT_DOUBLE_EQ(w.young_modulus, 2 * v.young_modulus);
   EXPECT_DOUBLE_EQ(w.outer_radius - w.inner_radius, 1.2 * (v.outer_radius - v.inner_radius));
   EXPECT_EQ(w.inner_radius, v.inner_radius);

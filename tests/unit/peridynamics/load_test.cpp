@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "core/error.hpp"
 #include "peridynamics/opening.hpp"
 #include "peridynamics/pressure_layer.hpp"
 #include "peridynamics/schedule.hpp"
@@ -86,6 +87,31 @@ TEST(Schedule, Shapes) {
   EXPECT_EQ(scheduled_pressure(p, 2), 30);
   EXPECT_EQ(scheduled_pressure(p, 3), 15);
   EXPECT_EQ(scheduled_pressure(p, 9), 0);
+}
+
+TEST(Schedule, StartsWhereItFirstHasAPressure) {
+  Parameters p = test::paper_vessel();
+  p.pressure = 100;
+  p.ramp_time = 2.0;
+  resolve(p);
+  const auto starts_with = [&](const char* schedule, double pressure) {
+    p.schedule = schedule;
+    p.schedule_start = time_of_pressure(p, pressure);
+    EXPECT_NEAR(scheduled_pressure(p, 0), pressure, 1e-10) << schedule;
+    return p.schedule_start;
+  };
+  EXPECT_DOUBLE_EQ(starts_with("ramp", 25), 0.5);
+  EXPECT_DOUBLE_EQ(scheduled_pressure(p, 0.5), 50) << "and goes on at its rate";
+  EXPECT_DOUBLE_EQ(starts_with("smooth_ramp", 50), 1);
+  p.table = {{1, 10}, {2, 30}, {3, 5}, {4, 60}};
+  EXPECT_DOUBLE_EQ(starts_with("table", 10), 1);
+  EXPECT_DOUBLE_EQ(starts_with("table", 20), 1.5);
+  EXPECT_DOUBLE_EQ(starts_with("table", 49), 3.8);
+  EXPECT_THROW(time_of_pressure(p, 61), InputError);
+  p.schedule = "ramp";
+  EXPECT_THROW(time_of_pressure(p, 101), InputError);
+  p.schedule = "step";
+  EXPECT_EQ(time_of_pressure(p, 40), 0);
 }
 
 class Opening : public testing::TestWithParam<const char*> {};

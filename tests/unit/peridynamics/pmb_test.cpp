@@ -68,6 +68,26 @@ TEST(Pmb, BreakingTestEqualsTheStretchTest) {
   EXPECT_DOUBLE_EQ(Pmb::breaking_t(0.25), 1.25 * 1.25 - 1);
 }
 
+TEST(Pmb, EnergyReleaseRateIsTheEnergyOfTheBondsThatCrossAPlane) {
+  // Bonds of a cubic lattice of step 1: of each offset (i, j, k), k of them cross a unit of the plane z = 0.
+  const int horizon = 20;
+  const double young = 3.5e6, stretch = 0.25;
+  const double c = Pmb::bond_constant(young, horizon);
+  double energy = 0;
+  for (int i = -horizon; i <= horizon; ++i) {
+    for (int j = -horizon; j <= horizon; ++j) {
+      for (int k = 1; k <= horizon; ++k) {
+        const double length = std::sqrt(i * i + j * j + k * k);
+        if (length <= horizon) energy += k * c * stretch * stretch * length / 2;
+      }
+    }
+  }
+  const double rate = Pmb::energy_release_rate(young, horizon, stretch);
+  EXPECT_NEAR(energy / rate, 1, 0.01);
+  EXPECT_NEAR(rate / (1.2 * young * stretch * stretch * horizon), 1, 1e-14);
+  EXPECT_NEAR(Pmb::critical_stretch(young, horizon, rate) / stretch, 1, 1e-14);
+}
+
 TEST(Pmb, CoincidentParticlesHaveAFiniteForce) {
   EXPECT_TRUE(std::isfinite(force_factor(-1.0f)));
   EXPECT_TRUE(std::isfinite(force_factor(-1.0)));
