@@ -137,7 +137,7 @@ TEST(HeterogeneousBody, EachBondBreaksAtItsOwnStretchAndTakesItsOwnEnergy) {
   std::int64_t count = 0, apart = 0;
   pulled.for_each_bond([&](std::size_t c, std::int64_t r, const Bond& bond, double s, const WallFactors& f) {
     const std::size_t i = c * lattice.rows + r;
-    const double s0 = p.critical_stretch * f.critical_stretch;
+    const double s0 = *p.critical_stretch * f.critical_stretch;
     const double energy = 0.25 * pulled.setup.bond_constant * f.stiffness * bond.length * lattice.spacing *
                           lattice.volume(c) * lattice.volume(bond.other);
     whole[i] += lattice.volume(bond.other);
