@@ -49,11 +49,13 @@ class Accelerations {
   }
 
  private:
-  /// As few rows as hold a family and the shortest waves along the axis.
+  /// Of the uniform wall; as few rows as hold a family and the shortest waves along the axis.
   static BodySetup periodic_piece(BodySetup setup) {
     setup.lattice.rows = 2 * setup.families.reach + 2;
     setup.ends = EndCondition::axial_periodic;
     setup.double_bonds = true;
+    setup.heterogeneity = {};
+    setup.thin_spots = {};
     return setup;
   }
 
