@@ -21,7 +21,7 @@ struct PressureLayer {
 /// `layer` "paper": |b| = P / thickness. Of the others the resultant sum |b| V is exactly P 2 pi r0 L.
 /// "consistent": |b| is the same over the layer. "nonlocal": at depth x (in thicknesses) |b| is in proportion
 /// to 1 - 4 x^3 + 3 x^4, the pull on a particle of the bonds that a flat surface cuts from its family under
-/// uniform stress, so that such a stress reaches the surface undisturbed. Throws InputError where the layer
+/// uniform strain along its normal: what stands in for them. Throws InputError where the layer
 /// holds no particle.
 PressureLayer make_pressure_layer(const Parameters& p, const Lattice& lattice);
 

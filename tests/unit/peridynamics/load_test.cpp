@@ -23,17 +23,46 @@ double relative_resultant(const Parameters& p) {
   return sum / (2 * std::numbers::pi * p.inner_radius * p.length);
 }
 
-TEST(PressureLayer, ConsistentResultantIsExact) {
-  for (const char* kind : {"lattice", "polar"}) {
-    for (double thickness : {1e-4, 3.5e-4}) {
-      Parameters p = test::paper_vessel();
-      p.cross_section = kind;
-      p.layer = "consistent";
-      p.layer_thickness = thickness;
-      resolve(p);
-      EXPECT_NEAR(relative_resultant(p), 1, 1e-13) << kind << ' ' << thickness;
+TEST(PressureLayer, ResultantIsExact) {
+  for (const char* layer : {"consistent", "nonlocal"}) {
+    for (const char* kind : {"lattice", "polar"}) {
+      for (double thickness : {1e-4, 3.5e-4}) {
+        Parameters p = test::paper_vessel();
+        p.cross_section = kind;
+        p.layer = layer;
+        p.layer_thickness = thickness;
+        resolve(p);
+        EXPECT_NEAR(relative_resultant(p), 1, 1e-13) << layer << ' ' << kind << ' ' << thickness;
+      }
     }
   }
+}
+
+TEST(PressureLayer, NonlocalLayerIsThePullOfTheBondsThatASurfaceCuts) {
+  // Under uniform strain along its normal, bonds pull along it in proportion to m^3, m the cosine of their
+  // angle to the normal: integrated over the part of a family that lies beyond the surface.
+  const auto cut_pull = [](double depth) {  // in horizons
+    constexpr int n = 2000;
+    double sum = 0;
+    for (int i = 0; i < n; ++i) {
+      const double r = depth + (1 - depth) * (i + 0.5) / n, least = depth / r;
+      sum += r * r * (1 - least * least * least * least) / 4 * (1 - depth) / n;
+    }
+    return sum;
+  };
+  Parameters p = test::paper_vessel();
+  p.cross_section = "polar";
+  p.layer = "nonlocal";
+  resolve(p);
+  const Lattice lattice = make_lattice(p);
+  const PressureLayer layer = make_pressure_layer(p, lattice);
+  std::vector<double> ratios;
+  for (std::size_t c = 0; c < lattice.section.size(); ++c) {
+    const double depth =
+        (std::hypot(lattice.section.x[c], lattice.section.y[c]) - p.inner_radius) / *p.layer_thickness;
+    if (depth < 0.99) ratios.push_back(std::hypot(layer.bx[c], layer.by[c]) / cut_pull(depth));
+  }
+  for (double ratio : ratios) EXPECT_NEAR(ratio / ratios.front(), 1, 1e-3);
 }
 
 TEST(PressureLayer, PaperResultantIsTooLarge) {
