@@ -178,6 +178,9 @@ class Suite:
         for name, of in (("ours", OURS), ("the paper's scheme", PAPER)):
             for across in (3, 5, 7, 10):
                 rows.append([name, f"{across} across", f"{self.onset(length, *scheme(of), *spacing(across)):.1f}"])
+        for across in (5, 7, 10):
+            value = self.onset(length, *spacing(across), "discretisation.horizon=350 um", "vessel.length=1.5 mm")
+            rows.append(["ours", f"{across} across, horizon 350 um, 1.5 mm", f"{value:.1f}"])
         for name, of in (("ours", OURS), ("the paper's scheme", PAPER)):
             for turn in (0.25, 0.5, 0.75):
                 angle = turn * 2 * np.pi / 110
