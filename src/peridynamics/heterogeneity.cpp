@@ -13,8 +13,9 @@ namespace rhexis::peridynamics {
 Heterogeneity::Heterogeneity(const Parameters& p)
     : mid_radius_(0.5 * (p.inner_radius + p.outer_radius)), spots_(p.spots) {
   const auto is_one = [](double factor) { return factor == 1; };
-  uniform_ = p.scatter.none() && std::ranges::all_of(spots_.critical_stretch, is_one) &&
-             std::ranges::all_of(spots_.stiffness, is_one);
+  uniformly_stiff_ = p.scatter.stiffness == 0 && std::ranges::all_of(spots_.stiffness, is_one);
+  uniform_ = uniformly_stiff_ && p.scatter.critical_stretch == 0 &&
+             std::ranges::all_of(spots_.critical_stretch, is_one);
   if (p.scatter.none()) return;
   field_.emplace(p.scatter.seed, *p.scatter.correlation_length);
   critical_stretch_ = marginal(p.scatter.law, p.scatter.critical_stretch);
@@ -46,7 +47,7 @@ std::vector<WallFactors> Heterogeneity::along(double x, double y, std::span<cons
 }
 
 double Heterogeneity::largest_stiffness(const Lattice& lattice) const {
-  if (uniform()) return 1;
+  if (uniformly_stiff_) return 1;  // nothing to draw
   std::vector<double> z(static_cast<std::size_t>(lattice.rows));
   for (std::int64_t row = 0; row < lattice.rows; ++row)
     z[static_cast<std::size_t>(row)] = lattice.height(row);

@@ -44,7 +44,7 @@ class Heterogeneity {
   using Marginal = std::function<double(double)>;
   static Marginal marginal(const std::string& law, double spread);
 
-  bool uniform_ = true;
+  bool uniform_ = true, uniformly_stiff_ = true;
   double mid_radius_ = 0;  ///< m
   Spots spots_;
   std::optional<GaussianField> field_;
