@@ -25,15 +25,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
 }
 
 Parameters parameters_of(const Case& c) {
-  Parameters p = test::paper_vessel();
-  p.cross_section = c.cross_section;
-  p.surface_correction = c.correction;
-  p.layer = c.layer;
-  p.spacing = (p.outer_radius - p.inner_radius) / c.across;
-  p.horizon = 3.5 * *p.spacing;
-  p.length = 16 * *p.spacing;
-  p.ends = "axial_periodic";
-  return p;
+  return test::endless_vessel(c.cross_section, c.correction, c.layer, c.across, 3.5);
 }
 
 class Lame : public testing::TestWithParam<Case> {};

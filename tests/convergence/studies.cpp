@@ -129,14 +129,7 @@ double breathing_wave_number(const Parameters& p) {
 }  // namespace
 
 Parameters vessel(const Discretisation& d) {
-  Parameters p = test::paper_vessel();
-  p.cross_section = d.cross_section;
-  p.surface_correction = d.correction;
-  p.layer = d.layer;
-  p.spacing = (p.outer_radius - p.inner_radius) / d.across;
-  p.horizon = d.horizon_ratio * *p.spacing;
-  p.length = 16 * *p.spacing;
-  p.ends = "axial_periodic";
+  Parameters p = test::endless_vessel(d.cross_section, d.correction, d.layer, d.across, d.horizon_ratio);
   p.bond_precision = d.precision;
   resolve(p);
   return p;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "parallel/communicator.hpp"
@@ -38,6 +39,22 @@ inline peridynamics::Parameters paper_vessel(double length = 2e-3) {
   p.layer = "paper";
   p.venting = "none";
   p.end_time = 2.25e-3;
+  return p;
+}
+
+/// An endless piece of that wall with `across` spacings across it and a horizon of `ratio` spacings;
+/// unresolved.
+inline peridynamics::Parameters endless_vessel(const std::string& cross_section,
+                                               const std::string& correction, const std::string& layer,
+                                               double across, double ratio) {
+  peridynamics::Parameters p = paper_vessel();
+  p.cross_section = cross_section;
+  p.surface_correction = correction;
+  p.layer = layer;
+  p.spacing = (p.outer_radius - p.inner_radius) / across;
+  p.horizon = ratio * *p.spacing;
+  p.length = 16 * *p.spacing;
+  p.ends = "axial_periodic";
   return p;
 }
 
