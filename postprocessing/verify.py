@@ -4,7 +4,7 @@
     ./quickstart test     # builds what this runs
     postprocessing/verify.py [--build build/release] [-o results/verification] [--skip-rupture]
 
-Writes report.md and PNGs. Ten minutes on two cores, most of it for the rupture pressures.
+Writes report.md and PNGs. On two busy cores some eight minutes, and another twenty for the rupture pressures.
 """
 
 import argparse
