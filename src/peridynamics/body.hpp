@@ -120,8 +120,9 @@ struct BodySetup {
   BondFamilies families;
   PressureLayer layer;
   EndCondition ends = EndCondition::free;
-  double end_length = 0;     ///< m held at each end
-  double density = 0;        ///< kg/m3
+  double end_length = 0;  ///< m held at each end
+  double density = 0;     ///< kg/m3
+  Material material;
   double bond_constant = 0;  ///< N/m6
   double critical_stretch = 0;
   double time_step = 0;     ///< s

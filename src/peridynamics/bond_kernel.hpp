@@ -91,8 +91,8 @@ HWY_INLINE std::uint16_t bits_of(D d, hn::Mask<D> mask, std::size_t first_lane) 
 /// Breaks what is stretched too far, then adds the forces of what is left. With `observing` also the strain
 /// energy (half of each bond's, its other half belongs to the other end). Only a `heterogeneous` wall pays
 /// for properties by place.
-template <class Law, bool observing, bool heterogeneous, class Real>
-HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
+template <bool observing, bool heterogeneous, class Law, class Real>
+HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, BlockSums<Real>& sums) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::CappedTag<Real, parallel::block_rows> d;
   using V = hn::Vec<decltype(d)>;
@@ -139,7 +139,7 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
       }
       const auto pulling = hn::AndNot(broken, present);
       V stiffness = hn::Set(d, Real{1});
-      V g = Law::force_factor(d, t);
+      V g = law.force_factor(d, t);
       if constexpr (heterogeneous) {
         stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + there));
         g = hn::Mul(g, stiffness);
@@ -149,7 +149,7 @@ HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
       fy = hn::MulAdd(k, y_y, fy);
       fz = hn::MulAdd(k, y_z, fz);
       if constexpr (observing) {
-        V w = hn::Mul(Law::energy_factor(d, t), hn::Set(d, bond.energy_weight));
+        V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
         if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
         energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
       }

@@ -54,8 +54,9 @@ struct ThreadTotals {
 template <class Law, class Real>
 class ColumnBody final : public Body {
  public:
-  ColumnBody(BodySetup setup, parallel::Communicator comm)
-      : setup_(std::move(setup)),
+  ColumnBody(Law law, BodySetup setup, parallel::Communicator comm)
+      : law_(law),
+        setup_(std::move(setup)),
         comm_(comm),
         periodic_(setup_.ends == EndCondition::axial_periodic),
         threads_(parallel::thread_count()),
@@ -201,6 +202,7 @@ class ColumnBody final : public Body {
   template <class PerThread, class Work>
   void with_halo(std::vector<PerThread>& per_thread, const Work& work);
 
+  Law law_;
   BodySetup setup_;
   parallel::Communicator comm_;
   bool periodic_;

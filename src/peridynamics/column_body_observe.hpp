@@ -7,19 +7,20 @@
 
 namespace rhexis::peridynamics {
 
-/// What it took to break one bond of the unit in the rows of `broken`, in units of a uniform wall's.
+/// What it took to break one bond of the unit in the rows of `broken`, in units of a uniform PMB wall's.
 template <class Law, class Real>
 double ColumnBody<Law, Real>::breaking_energy(Unit unit, const BondConstants<Real>& bond,
                                               std::uint16_t broken) const {
-  if (half_stretch_.empty()) return std::popcount(broken);
+  if (half_stretch_.empty()) return std::popcount(broken) * law_.energy_ratio(setup_.critical_stretch);
   const std::size_t here = padded_place(unit),
                     there = here + static_cast<std::size_t>(std::int64_t{bond.offset});
   double energy = 0;
   for (int rows = broken; rows != 0; rows &= rows - 1) {
     const auto row = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(rows)));
-    const double s =
-        (double{half_stretch_[here + row]} + double{half_stretch_[there + row]}) / setup_.critical_stretch;
-    energy += s * s * (double{half_stiffness_[here + row]} + double{half_stiffness_[there + row]});
+    const double s = double{half_stretch_[here + row]} + double{half_stretch_[there + row]};
+    const double in_uniform = s / setup_.critical_stretch;
+    energy += in_uniform * in_uniform * law_.energy_ratio(s) *
+              (double{half_stiffness_[here + row]} + double{half_stiffness_[there + row]});
   }
   return energy;
 }
@@ -73,7 +74,7 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   totals.kinetic.add(0.5 * setup_.density * particle_volume * speed2);
   totals.strain.add(particle_volume * strain);
 
-  // A bond took c s0^2 |xi| V_i V_j / 2 to break; each of its ends accounts for half.
+  // A bond took c s0^2 |xi| V_i V_j / 2 to break (PMB); each of its ends accounts for half.
   const double s0 = setup_.critical_stretch;
   const double per_weight = 0.25 * energy_scale * s0 * s0 * particle_volume;
   const auto bonds = bonds_of(unit);

@@ -21,9 +21,9 @@ template <class Law, class Real>
 template <bool observing>
 void ColumnBody<Law, Real>::sum(Unit unit, BlockSums<Real>& sums) {
   if (half_stretch_.empty()) {
-    sum_block<Law, observing, false>(view(unit), sums);
+    sum_block<observing, false>(law_, view(unit), sums);
   } else {
-    sum_block<Law, observing, true>(view(unit), sums);
+    sum_block<observing, true>(law_, view(unit), sums);
   }
 }
 

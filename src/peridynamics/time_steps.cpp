@@ -6,14 +6,22 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "peridynamics/heterogeneity.hpp"
-#include "peridynamics/materials/pmb.hpp"
+#include "peridynamics/materials/with_law.hpp"
 
 namespace rhexis::peridynamics {
 
+double stable_time_step(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
+  const WallFactors largest = Heterogeneity(p).largest(lattice);
+  return with_law(material(p), [&](const auto& law) {
+    const double hardening = law.stiffness_ratio(p.critical_stretch * largest.critical_stretch);
+    return stable_time_step(lattice, families, law.bond_constant(p.young_modulus, *p.horizon), p.density) /
+           std::sqrt(largest.stiffness * hardening);
+  });
+}
+
 TimeSteps time_steps(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
   TimeSteps t;
-  t.stable = stable_time_step(lattice, families, Pmb::bond_constant(p.young_modulus, *p.horizon), p.density) /
-             std::sqrt(Heterogeneity(p).largest_stiffness(lattice));
+  t.stable = stable_time_step(p, lattice, families);
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
   if (t.step > t.stable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +

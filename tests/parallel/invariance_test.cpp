@@ -17,6 +17,7 @@ struct Case {
   const char* precision;
   double length;
   double scatter = 0;
+  const char* law = "pmb";
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -31,7 +32,8 @@ INSTANTIATE_TEST_SUITE_P(Vessels, Invariance,
                                          Case{"Double", "polar", "sliding", "double", 2e-3},
                                          Case{"Scattered", "lattice", "clamped", "single", 3.7e-3, 0.1},
                                          Case{"ScatteredPeriodic", "polar", "axial_periodic", "double",
-                                              3.3e-3, 0.1}),
+                                              3.3e-3, 0.1},
+                                         Case{"Fung", "lattice", "free", "single", 2e-3, 0.1, "fung"}),
                          [](const auto& i) { return i.param.name; });
 
 Parameters parameters(const Case& c) {
@@ -43,6 +45,8 @@ Parameters parameters(const Case& c) {
   p.scatter.critical_stretch = c.scatter;
   p.scatter.stiffness = c.scatter;
   if (c.scatter > 0) p.spots = {{2e-3}, {0.5}, {1e-3}, {0.9}, {1}, {0.5}};
+  p.law = c.law;
+  if (p.law == "fung") p.fung_exponent = 10;
   return p;
 }
 

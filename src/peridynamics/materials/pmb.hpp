@@ -24,6 +24,10 @@ struct Pmb {
     return 6 * young_modulus / (std::numbers::pi * h2 * h2 * (1 - 2 * poisson_ratio));
   }
 
+  /// Energy and stiffness of a bond relative to c |xi| s^2 / 2 and to c, which other laws may exceed.
+  static double energy_ratio(double) { return 1; }
+  static double stiffness_ratio(double) { return 1; }
+
   /// Eq. (5) in terms of t.
   static double breaking_t(double critical_stretch) { return critical_stretch * (2 + critical_stretch); }
   /// The same, lane by lane.
@@ -52,6 +56,14 @@ struct Pmb {
       const V series = hn::MulAdd(e, hn::Set(d, Real(0.375)), hn::Set(d, Real(0.5)));
       return hn::NegMulAdd(hn::Mul(e, r), series, g);
     }
+  }
+
+  /// s = g (1 + s), with g = force_factor(t) and 1 + s = (1 + t)(1 - g): no root, and as accurate as g.
+  template <class D, class V>
+  static HWY_INLINE V stretch(D d, V t, V g) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const V one = hn::Set(d, hn::TFromD<D>{1});
+    return hn::Mul(hn::Mul(g, hn::Add(one, t)), hn::Sub(one, g));
   }
 
   /// s^2 / 2: the micropotential is w = c |xi| s^2 / 2 (J/m6).

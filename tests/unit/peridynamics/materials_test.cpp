@@ -1,0 +1,81 @@
+// What every law must do once the engine runs it: keys, stable step, energy balance.
+#include <gtest/gtest.h>
+
+#include "core/error.hpp"
+#include "peridynamics/time_steps.hpp"
+#include "support/vessels.hpp"
+
+namespace rhexis::peridynamics {
+namespace {
+
+Parameters vessel_of(const std::string& law, double length = 1e-3) {
+  Parameters p = test::paper_vessel(length);
+  p.law = law;
+  if (law == "fung") p.fung_exponent = 10;
+  return p;
+}
+
+double stable_step(Parameters p) {
+  resolve(p);
+  const Lattice lattice = make_lattice(p);
+  return stable_time_step(p, lattice, make_families(lattice));
+}
+
+std::string key_at_fault(Parameters p) {
+  try {
+    resolve(p);
+  } catch (const InputError& e) {
+    return e.key;
+  }
+  return "";
+}
+
+TEST(Materials, KeysOfOneLawAreErrorsWithAnother) {
+  EXPECT_EQ(key_at_fault(vessel_of("fung")), "");
+  Parameters p = vessel_of("fung");
+  p.fung_exponent.reset();
+  EXPECT_EQ(key_at_fault(p), "material.fung_exponent");
+  p = vessel_of("pmb");
+  p.fung_exponent = 10;
+  EXPECT_EQ(key_at_fault(p), "material.fung_exponent");
+  p = vessel_of("fung");
+  p.critical_stretch = 1.1;  // exp(12.1) before it breaks
+  EXPECT_EQ(key_at_fault(p), "material.fung_exponent");
+}
+
+TEST(Materials, StiffeningBondsNeedAShorterStep) {
+  // At s0 = 0.25 and a = 8 a bond is 2 exp(1/2) times as stiff as a linear one.
+  Parameters p = vessel_of("fung");
+  p.fung_exponent = 8;
+  EXPECT_NEAR(stable_step(vessel_of("pmb")) / stable_step(p), std::sqrt(2 * std::exp(0.5)), 1e-12);
+}
+
+class EachLaw : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Materials, EachLaw, testing::Values("pmb", "fung"),
+                         [](const auto& i) { return std::string(i.param); });
+
+TEST_P(EachLaw, EnergyBalancesThroughRupture) {
+  Parameters p = vessel_of(GetParam());
+  p.critical_stretch = 0.1;
+  p.ends = "free";
+  BodySetup setup = test::setup_of(p, 0.1 * stable_step(p));
+  const auto body = make_body(std::move(setup), test::self());
+  Totals t;
+  for (int i = 0; t.broken_bonds < 3000 && i < 600; ++i) {
+    body->advance(1500.0 * i, 1500.0 * (i + 1));
+    if (i % 10 == 9) {
+      body->observe(1500.0 * (i + 1));
+      t = body->totals();
+    }
+  }
+  ASSERT_GT(t.broken_bonds, 3000);
+  EXPECT_GT(t.fracture, 0.01 * t.external_work);
+  std::printf("%s: %ld bonds broken, kinetic %.3g, strain %.3g, fracture %.3g of the work, off by %.2g\n",
+              GetParam(), static_cast<long>(t.broken_bonds), t.kinetic / t.external_work,
+              t.strain / t.external_work, t.fracture / t.external_work,
+              (t.kinetic + t.strain + t.fracture) / t.external_work - 1);
+  EXPECT_NEAR((t.kinetic + t.strain + t.fracture) / t.external_work, 1, 5e-3);
+}
+
+}  // namespace
+}  // namespace rhexis::peridynamics
