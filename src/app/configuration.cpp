@@ -11,7 +11,6 @@
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/units.hpp"
-#include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
 #include "peridynamics/time_steps.hpp"
@@ -290,7 +289,7 @@ void resolve_coupling(Configuration& c) {
     throw InputError("must be above body.compression_from", "body.compression_to");
   c.vessel.blood_density = c.hemodynamics.density;
   c.network.wall.young_modulus = c.vessel.young_modulus;
-  c.network.wall.poisson_ratio = peridynamics::Pmb::poisson_ratio;
+  c.network.wall.poisson_ratio = c.vessel.law.poisson_ratio;
   c.screening.critical_stretch = c.vessel.critical_stretch;
   if (p.events > 0 && c.network.source == "tree" && c.network.tier != "explicit")
     throw InputError("a cascade needs network.tier = \"explicit\"", "cascade.events");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "peridynamics/column_body_dilatation.hpp"
 #include "peridynamics/column_body_observe.hpp"
 #include "peridynamics/column_body_state.hpp"
 #include "peridynamics/column_body_step.hpp"
@@ -17,9 +18,9 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families
   setup.ends = end_condition(p);
   setup.end_length = *p.end_length;
   setup.density = p.density;
-  setup.material = material(p);
-  setup.bond_constant = with_law(
-      setup.material, [&](const auto& law) { return law.bond_constant(p.young_modulus, *p.horizon); });
+  setup.law = p.law;
+  setup.bond_constant =
+      with_law(setup.law, [&](const auto& law) { return law.bond_constant(p.young_modulus, *p.horizon); });
   setup.critical_stretch = p.critical_stretch;
   setup.time_step = time_step;
   // Strain energy of the whole wall at the critical stretch, or the pressure on as much: what happens stays
@@ -34,7 +35,7 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families
 }
 
 std::unique_ptr<Body> make_body(BodySetup setup, parallel::Communicator comm) {
-  return with_law(setup.material, [&]<class Law>(const Law& law) -> std::unique_ptr<Body> {
+  return with_law(setup.law, [&]<class Law>(const Law& law) -> std::unique_ptr<Body> {
     if (setup.double_bonds) return std::make_unique<ColumnBody<Law, double>>(law, std::move(setup), comm);
     return std::make_unique<ColumnBody<Law, float>>(law, std::move(setup), comm);
   });

@@ -106,6 +106,7 @@ class Body {
     std::vector<std::uint16_t> words;
     bool first_kick_pending = false;
     double external_work = 0;       ///< J
+    double released_energy = 0;     ///< J, of dilatation, by breaking bonds; 0 where the law has none
     double load_speed = 0;          ///< m/s, see ColumnBody
     std::array<double, 3> frame{};  ///< m
     long frame_phase = 0;           ///< steps since the body's motion was looked at
@@ -122,7 +123,7 @@ struct BodySetup {
   EndCondition ends = EndCondition::free;
   double end_length = 0;  ///< m held at each end
   double density = 0;     ///< kg/m3
-  Material material;
+  LawChoice law = {};
   double bond_constant = 0;  ///< N/m6
   double critical_stretch = 0;
   double time_step = 0;     ///< s

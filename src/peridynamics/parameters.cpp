@@ -30,27 +30,10 @@ ParameterList declare(Parameters& p) {
 
       {"material.density", &p.density, "kg/m3", "\"1.3 g/cm3\"", "Mass density of the wall.", "Table 2",
        Range::positive()},
-      {"material.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"",
-       "Young's modulus of the wall; Poisson's ratio is 1/4 in the bond-based law.", "Table 2, Eq. (4)",
-       Range::positive()},
+      {"material.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"", "Young's modulus of the wall.",
+       "Table 2, Eq. (4)", Range::positive()},
       {"material.critical_stretch", &p.critical_stretch, "1", "0.25", "Stretch at which a bond breaks, s0.",
        "Table 2, Eq. (5)", Range::between(1e-6, 10)},
-      {"material.law",
-       &p.law,
-       "",
-       "\"pmb\"",
-       "How a bond pulls: pmb (in proportion to its stretch s, the paper's) or fung (stiffening as collagen "
-       "does, exp(a s^2) times as strong).",
-       "Eq. (2); Fung 1979",
-       {},
-       {"pmb", "fung"}},
-      {"material.fung_exponent",
-       &p.fung_exponent,
-       "1",
-       "\"auto\"",
-       "The exponent a; to be given with law = \"fung\", and only there.",
-       "",
-       {.lower = 0, .upper = 50, .lower_open = true}},
 
       {"discretisation.cross_section",
        &p.cross_section,
@@ -163,6 +146,8 @@ ParameterList declare(Parameters& p) {
        "",
        {.lower = 0, .upper = 1, .lower_open = true}},
   };
+  const ParameterList law = declare(p.law);  // with the other keys of its section
+  all.insert(std::ranges::find(all, "discretisation.cross_section", &Parameter::key), law.begin(), law.end());
   std::ranges::copy(declare(p.scatter), std::back_inserter(all));
   std::ranges::copy(declare(p.spots), std::back_inserter(all));
   return all;
@@ -180,30 +165,7 @@ EndCondition end_condition(const Parameters& p) {
   return EndCondition::free;
 }
 
-Material material(const Parameters& p) {
-  if (p.law == "fung") return {.law = MaterialLaw::fung, .fung_exponent = *p.fung_exponent};
-  return {};
-}
-
 namespace {
-
-void resolve_material(const Parameters& p) {
-  if (p.law != "fung") {
-    if (p.fung_exponent)
-      throw InputError("only for material.law = \"fung\", not \"" + p.law + "\"", "material.fung_exponent");
-    return;
-  }
-  if (!p.fung_exponent)
-    throw InputError("material.law = \"fung\" needs an exponent, such as 10", "material.fung_exponent");
-  const double at_break = *p.fung_exponent * p.critical_stretch * p.critical_stretch;
-  if (at_break > 10) {
-    throw InputError(
-        "a bond would pull exp(" + text(at_break) +
-            ") times as hard as a linear one before it breaks; a critical_stretch^2 may be 10 at "
-            "most",
-        "material.fung_exponent");
-  }
-}
 
 void resolve_spacing(Parameters& p) {
   if (p.spacing && p.particles) {
@@ -292,7 +254,7 @@ std::vector<std::string> resolve(Parameters& p) {
   if (p.lattice_shift.size() != 2) {
     throw InputError("two numbers are needed, for x and y", "discretisation.lattice_shift");
   }
-  resolve_material(p);
+  resolve(p.law, p.critical_stretch);
   resolve_spacing(p);
   if (p.length < *p.spacing) throw InputError("the vessel is shorter than one spacing", "vessel.length");
   resolve_load(p);

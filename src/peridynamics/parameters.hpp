@@ -8,28 +8,20 @@
 
 #include "core/parameter.hpp"
 #include "peridynamics/heterogeneity_parameters.hpp"
+#include "peridynamics/law_parameters.hpp"
 
 namespace rhexis::peridynamics {
 
 enum class EndCondition { free, clamped, axial_periodic, sliding };
-
-enum class MaterialLaw { pmb, fung };
-
-/// A law and its own numbers; see materials/.
-struct Material {
-  MaterialLaw law = MaterialLaw::pmb;
-  double fung_exponent = 0;
-};
 
 /// All in SI units. Values that "auto" leaves empty are filled in by `resolve`.
 struct Parameters {
   double inner_radius = 0, outer_radius = 0, length = 0;  ///< m
 
   double density = 0;        ///< kg/m3
-  double young_modulus = 0;  ///< Pa; Poisson's ratio is 1/4 in the bond-based law
+  double young_modulus = 0;  ///< Pa
   double critical_stretch = 0;
-  std::string law;  ///< see MaterialLaw
-  std::optional<double> fung_exponent;
+  LawChoice law;
 
   std::string cross_section;      ///< "lattice" | "polar"
   std::optional<double> spacing;  ///< m
@@ -74,8 +66,5 @@ std::vector<std::string> resolve(Parameters& p);
 double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles);
 
 EndCondition end_condition(const Parameters& p);
-
-/// Of resolved parameters.
-Material material(const Parameters& p);
 
 }  // namespace rhexis::peridynamics

@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "peridynamics/dilatation_bound.hpp"
 #include "peridynamics/heterogeneity.hpp"
 #include "peridynamics/materials/with_law.hpp"
 
@@ -12,10 +13,22 @@ namespace rhexis::peridynamics {
 
 double stable_time_step(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
   const WallFactors largest = Heterogeneity(p).largest(lattice);
-  return with_law(material(p), [&](const auto& law) {
+  return with_law(p.law, [&]<class Law>(const Law& law) {
+    const double bond_constant = law.bond_constant(p.young_modulus, *p.horizon);
     const double hardening = law.stiffness_ratio(p.critical_stretch * largest.critical_stretch);
-    return stable_time_step(lattice, families, law.bond_constant(p.young_modulus, *p.horizon), p.density) /
-           std::sqrt(largest.stiffness * hardening);
+    const double of_bonds = stable_time_step(lattice, families, bond_constant, p.density) /
+                            std::sqrt(largest.stiffness * hardening);
+    if constexpr (!Law::state_based) {
+      return of_bonds;
+    } else {
+      if (law.kappa() <= 0) return of_bonds;  // dilatation makes it softer
+      // Squared frequencies of stretches, (2 / of_bonds)^2, and of dilatations add up at most.
+      const bool periodic = end_condition(p) == EndCondition::axial_periodic;
+      const double energy = bond_constant * law.weighted_volume(*p.horizon) * law.dilatation_energy(1);
+      const double squared = 2 * energy * largest.stiffness * dilatation_bound(lattice, families, periodic) /
+                             (p.density * lattice.spacing * lattice.spacing);
+      return of_bonds / std::sqrt(1 + squared * of_bonds * of_bonds / 4);
+    }
   });
 }
 

@@ -11,7 +11,7 @@ struct TimeSteps {
   long count = 0;     ///< of them until time.end, the last one whole
 };
 
-/// s, of the material's law, for bonds compressed no more than those that break are stretched.
+/// s, of the material's law; for bonds compressed no more than those that break are stretched.
 double stable_time_step(const Parameters& p, const Lattice& lattice, const BondFamilies& families);
 
 /// The user's step, or a share of the stable one that divides the end time evenly. Throws InputError for a

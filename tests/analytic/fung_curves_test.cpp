@@ -51,8 +51,8 @@ class Rod {
  public:
   Rod(double horizon_ratio, bool double_bonds) {
     Parameters p = test::paper_vessel();
-    p.law = "fung";
-    p.fung_exponent = exponent;
+    p.law.name = "fung";
+    p.law.fung_exponent = exponent;
     p.critical_stretch = 0.9;
     p.ends = "free";
     p.inner_radius = 1e-6;

@@ -25,7 +25,6 @@ inline peridynamics::Parameters paper_vessel(double length = 2e-3) {
   p.density = 1300;
   p.young_modulus = 3.5e6;
   p.critical_stretch = 0.25;
-  p.law = "pmb";
   p.cross_section = "lattice";
   p.spacing = 1e-4;
   p.horizon = 3.5e-4;

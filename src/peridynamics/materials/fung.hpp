@@ -24,6 +24,7 @@
 namespace rhexis::peridynamics {
 
 struct Fung {
+  static constexpr bool state_based = false;
   double exponent;  ///< a > 0
 
   static double bond_constant(double young_modulus, double horizon) {

@@ -16,6 +16,7 @@
 namespace rhexis::peridynamics {
 
 struct Pmb {
+  static constexpr bool state_based = false;
   static constexpr double poisson_ratio = 0.25;
 
   /// Eq. (4): c = 6 E / (pi delta^4 (1 - 2 nu)) with nu = 1/4, N/m6; E in Pa, delta in m.

@@ -1,21 +1,18 @@
-/// From a material's name to its law.
+/// From the name of a law to the law.
 #pragma once
 
+#include "peridynamics/law_parameters.hpp"
 #include "peridynamics/materials/fung.hpp"
+#include "peridynamics/materials/lps.hpp"
 #include "peridynamics/materials/pmb.hpp"
-#include "peridynamics/parameters.hpp"
 
 namespace rhexis::peridynamics {
 
-/// What `use` makes of the law that `material` names.
+/// What `use` makes of the law that was chosen.
 template <class Use>
-auto with_law(const Material& material, const Use& use) {
-  switch (material.law) {
-    case MaterialLaw::fung:
-      return use(Fung{material.fung_exponent});
-    case MaterialLaw::pmb:
-      break;
-  }
+auto with_law(const LawChoice& choice, const Use& use) {
+  if (choice.name == "fung") return use(Fung{*choice.fung_exponent});
+  if (choice.name == "lps") return use(Lps(choice.poisson_ratio));
   return use(Pmb{});
 }
 
