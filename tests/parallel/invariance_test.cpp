@@ -112,15 +112,17 @@ TEST_P(Invariance, BitIdentical) {
 }
 
 TEST_P(Invariance, EquilibriumIsBitIdentical) {
+  Parameters p = parameters(GetParam());
+  if (p.ends == "axial_periodic") p.spots = {};  // beside a thin spot nothing holds what pushes sideways
   const auto find = [&](parallel::Communicator comm, int threads) {
     omp_set_num_threads(threads);
-    return find_equilibrium(test::setup_of(parameters(GetParam()), 1e-6), 30e3, 1e-3, comm);
+    return find_equilibrium(test::setup_of(p, 1e-6), 30e3, 1e-3, comm);
   };
   const Equilibrium alone = find(test::self(), 1), together = find(parallel::Communicator::world(), 2);
   EXPECT_EQ(alone.steps, together.steps);
   EXPECT_EQ(alone.residual, together.residual);
   EXPECT_EQ(alone.strain_energy, together.strain_energy);
-  const auto body = make_body(test::setup_of(parameters(GetParam()), 1e-6), parallel::Communicator::world());
+  const auto body = make_body(test::setup_of(p, 1e-6), parallel::Communicator::world());
   const PointLayout& mine = body->layout();
   for (std::int64_t c = 0; c < mine.column_count; ++c) {
     for (std::int64_t r = 0; r < mine.row_count; ++r) {
