@@ -131,15 +131,17 @@ TEST_P(EachLaw, PiecesPullAsTheyDoHoweverFarApart) {
     const auto body = make_body(BodySetup(setup), test::self());
     body->set_state(test::sample(*body,
                                  [&](auto x) {
-                                   return std::array{
-                                       0.1 * h * std::sin(5e3 * x[1]), 0.1 * h * std::sin(5e3 * x[2]),
-                                       (x[2] > p.length / 2 ? away : -away) + 0.1 * h * std::sin(5e3 * x[0])};
+                                   const double side = x[2] > p.length / 2 ? 1 : -1;
+                                   return std::array{50 * h * side + 0.1 * h * std::sin(5e3 * x[1]),
+                                                     0.1 * h * std::sin(5e3 * x[2]),
+                                                     away * side + 0.1 * h * std::sin(5e3 * x[0])};
                                  }),
                     test::sample(*body, test::nothing));
     EXPECT_EQ(body->save().wrapped, wrapped);
     return body->observe(0).force_density;
   };
-  // Far apart, each piece lies across the end of a period.
+  // Far apart, each piece lies across the end of a period; they are apart in x too, lest whole periods hide
+  // it.
   const auto near = forces(50 * h, false), far = forces(4.5 * wrap_period * h, true);
   double largest = 0, difference = 0;
   for (std::size_t k = 0; k < 3; ++k) {
