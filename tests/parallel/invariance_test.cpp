@@ -113,7 +113,7 @@ TEST_P(Invariance, BitIdentical) {
 
 TEST_P(Invariance, EquilibriumIsBitIdentical) {
   Parameters p = parameters(GetParam());
-  if (p.ends == "axial_periodic") p.spots = {};  // beside a thin spot nothing holds what pushes sideways
+  if (p.ends != "clamped") p.spots = {};  // beside a thin spot nothing holds what pushes sideways
   const auto find = [&](parallel::Communicator comm, int threads) {
     omp_set_num_threads(threads);
     return find_equilibrium(test::setup_of(p, 1e-6), 30e3, 1e-3, comm);
