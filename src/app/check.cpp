@@ -13,6 +13,7 @@
 #include "peridynamics/bond_kernel.hpp"
 #include "peridynamics/elastic_error.hpp"
 #include "peridynamics/linear_limit.hpp"
+#include "peridynamics/materials/with_law.hpp"
 #include "peridynamics/strength.hpp"
 #include "peridynamics/surface_correction.hpp"
 
@@ -47,7 +48,9 @@ double body_bytes(const Configuration& c, const Lattice& lattice, const BondFami
   const auto particles = static_cast<double>(lattice.particles());
   const double blocks = static_cast<double>((lattice.rows + 15) / 16);
   const double local = peridynamics::Heterogeneity(c.vessel).uniform() ? 0 : 2 * real;
-  const double state = particles * (6 * sizeof(double) + 6 * real + local);
+  const double dilatation = peridynamics::with_law(
+      c.vessel.law, [&]<class Law>(const Law&) { return Law::state_based ? real + sizeof(double) : 0.0; });
+  const double state = particles * (6 * sizeof(double) + 6 * real + local + dilatation);
   const double bits = static_cast<double>(families.bonds.size()) * blocks * sizeof(std::uint16_t);
   // Families of all columns on every rank, and the kernel's tables of them once.
   const double tables =

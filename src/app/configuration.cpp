@@ -11,7 +11,6 @@
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/units.hpp"
-#include "peridynamics/materials/pmb.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
 #include "peridynamics/strength.hpp"
@@ -293,7 +292,7 @@ void resolve_coupling(Configuration& c) {
     throw InputError("must be above body.compression_from", "body.compression_to");
   c.vessel.blood_density = c.hemodynamics.density;
   c.network.wall.young_modulus = c.vessel.young_modulus;
-  c.network.wall.poisson_ratio = peridynamics::Pmb::poisson_ratio;
+  c.network.wall.poisson_ratio = c.vessel.law.poisson_ratio;
   if (c.vessel.energy_release_rate && !c.vessel.horizon)
     throw InputError(
         "before the network is solved no spacing is known, and so no critical stretch; give "

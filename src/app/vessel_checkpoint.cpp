@@ -60,6 +60,7 @@ void VesselRun::write_checkpoint(long step) {
   file.write("wrapped", std::int64_t{saved.wrapped});
   file.write("first_kick_pending", std::int64_t{saved.first_kick_pending});
   file.write("external_work", saved.external_work);
+  file.write("released_energy", saved.released_energy);
   file.write("load_speed", saved.load_speed);
   file.write("vent", vent_now_);
   file.write("first_bond_break", results_.first_bond_break_s.value_or(absent));
@@ -107,6 +108,7 @@ void VesselRun::read_checkpoint() {
   file.read("first_kick_pending", pending);
   saved.first_kick_pending = pending != 0;
   file.read("external_work", saved.external_work);
+  file.read("released_energy", saved.released_energy);
   file.read("load_speed", saved.load_speed);
   file.read("vent", vent_now_);
   vent_next_ = vent_now_;

@@ -5,14 +5,14 @@
 namespace rhexis::parallel {
 namespace {
 
-std::size_t values_in(const std::vector<Run>& runs) {
+std::size_t rows_in(const std::vector<Run>& runs) {
   std::size_t count = 0;
   for (const Run& run : runs) count += run.count;
-  return 3 * count;
+  return count;
 }
 
 template <class Real>
-void pack(const std::array<Real*, 3>& field, const std::vector<Run>& runs, std::vector<Real>& buffer) {
+void pack(std::span<Real* const> field, const std::vector<Run>& runs, std::vector<Real>& buffer) {
   Real* out = buffer.data();
   for (const Run& run : runs) {
     for (const Real* component : field) out = std::copy_n(component + run.offset, run.count, out);
@@ -20,8 +20,7 @@ void pack(const std::array<Real*, 3>& field, const std::vector<Run>& runs, std::
 }
 
 template <class Real>
-void unpack(const std::vector<Real>& buffer, const std::vector<Run>& runs,
-            const std::array<Real*, 3>& field) {
+void unpack(const std::vector<Real>& buffer, const std::vector<Run>& runs, std::span<Real* const> field) {
   const Real* in = buffer.data();
   for (const Run& run : runs) {
     for (Real* component : field) {
@@ -34,16 +33,16 @@ void unpack(const std::vector<Real>& buffer, const std::vector<Run>& runs,
 }  // namespace
 
 template <class Real>
-HaloExchange<Real>::HaloExchange(Communicator comm, std::vector<HaloMessage> messages)
+HaloExchange<Real>::HaloExchange(Communicator comm, std::vector<HaloMessage> messages, std::size_t components)
     : comm_(comm), messages_(std::move(messages)) {
   for (const HaloMessage& message : messages_) {
-    outgoing_.emplace_back(values_in(message.send));
-    incoming_.emplace_back(values_in(message.receive));
+    outgoing_.emplace_back(components * rows_in(message.send));
+    incoming_.emplace_back(components * rows_in(message.receive));
   }
 }
 
 template <class Real>
-void HaloExchange<Real>::start(const std::array<Real*, 3>& field) {
+void HaloExchange<Real>::start(std::span<Real* const> field) {
   requests_.clear();
   const auto bytes = [](const std::vector<Real>& buffer) {
     return static_cast<int>(buffer.size() * sizeof(Real));
@@ -65,7 +64,7 @@ void HaloExchange<Real>::start(const std::array<Real*, 3>& field) {
 }
 
 template <class Real>
-void HaloExchange<Real>::finish(const std::array<Real*, 3>& field) {
+void HaloExchange<Real>::finish(std::span<Real* const> field) {
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   for (std::size_t m = 0; m < messages_.size(); ++m) unpack(incoming_[m], messages_[m].receive, field);
 }

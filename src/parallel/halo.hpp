@@ -1,15 +1,15 @@
 /// Exchange of values that several ranks need, in two halves so that work fits in between.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "parallel/communicator.hpp"
 
 namespace rhexis::parallel {
 
-/// A contiguous run of values in each of a vector field's component arrays.
+/// A contiguous run of values in each of a field's component arrays.
 struct Run {
   std::size_t offset = 0, count = 0;
 };
@@ -24,12 +24,13 @@ struct HaloMessage {
 template <class Real>
 class HaloExchange {
  public:
-  HaloExchange(Communicator comm, std::vector<HaloMessage> messages);
+  /// Of fields with `components` arrays.
+  HaloExchange(Communicator comm, std::vector<HaloMessage> messages, std::size_t components);
 
   /// Packs and sends the runs of `field`; they may be read but not written until `finish`.
-  void start(const std::array<Real*, 3>& field);
+  void start(std::span<Real* const> field);
   /// Waits and writes what came into the halo of `field`.
-  void finish(const std::array<Real*, 3>& field);
+  void finish(std::span<Real* const> field);
 
  private:
   Communicator comm_;

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "peridynamics/column_body_dilatation.hpp"
 #include "peridynamics/column_body_observe.hpp"
 #include "peridynamics/column_body_state.hpp"
 #include "peridynamics/column_body_step.hpp"
-#include "peridynamics/materials/pmb.hpp"
+#include "peridynamics/materials/with_law.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -18,7 +19,9 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families
   setup.ends = end_condition(p);
   setup.end_length = *p.end_length;
   setup.density = p.density;
-  setup.bond_constant = Pmb::bond_constant(p.young_modulus, *p.horizon);
+  setup.law = p.law;
+  setup.bond_constant =
+      with_law(setup.law, [&](const auto& law) { return law.bond_constant(p.young_modulus, *p.horizon); });
   setup.critical_stretch = *p.critical_stretch;
   setup.time_step = time_step;
   // Strain energy of the whole wall at the critical stretch, or the pressure on as much: what happens stays
@@ -43,8 +46,10 @@ std::pair<std::int64_t, std::int64_t> free_rows(const BodySetup& setup, int comp
 }
 
 std::unique_ptr<Body> make_body(BodySetup setup, parallel::Communicator comm) {
-  if (setup.double_bonds) return std::make_unique<ColumnBody<Pmb, double>>(std::move(setup), comm);
-  return std::make_unique<ColumnBody<Pmb, float>>(std::move(setup), comm);
+  return with_law(setup.law, [&]<class Law>(const Law& law) -> std::unique_ptr<Body> {
+    if (setup.double_bonds) return std::make_unique<ColumnBody<Law, double>>(law, std::move(setup), comm);
+    return std::make_unique<ColumnBody<Law, float>>(law, std::move(setup), comm);
+  });
 }
 
 }  // namespace rhexis::peridynamics

@@ -110,6 +110,7 @@ class Body {
     std::vector<std::uint16_t> words;
     bool first_kick_pending = false;
     double external_work = 0;       ///< J
+    double released_energy = 0;     ///< J, of dilatation, by breaking bonds; 0 where the law has none
     double load_speed = 0;          ///< m/s, see ColumnBody
     std::array<double, 3> frame{};  ///< m
     bool wrapped = false;           ///< see ColumnBody::follow_body
@@ -125,8 +126,9 @@ struct BodySetup {
   BondFamilies families;
   PressureLayer layer;
   EndCondition ends = EndCondition::free;
-  double end_length = 0;     ///< m held at each end
-  double density = 0;        ///< kg/m3
+  double end_length = 0;  ///< m held at each end
+  double density = 0;     ///< kg/m3
+  LawChoice law = {};
   double bond_constant = 0;  ///< N/m6
   double critical_stretch = 0;
   double time_step = 0;     ///< s

@@ -47,6 +47,7 @@ struct BlockView {
   std::uint16_t* intact;             ///< one word per bond, bit k: bond of row k exists and is unbroken
   Real breaking_t;                   ///< of a uniform wall
   LocalProperties<Real> local = {};  ///< of one that is not, at the block's first row
+  const Real* pressure = nullptr;    ///< of a state-based law, padded, at the block's first row
 };
 
 /// Sums over each row's family.
@@ -61,6 +62,9 @@ struct BlockSums {
 /// Floating-point operations of one bond when it pulls: 9 for eta, y and xi + y, 6 for t, 12 for g(t), 1 for
 /// k, 6 for the force (a fused multiply-add counts as two, the approximate root as one).
 inline constexpr double flop_per_bond = 34;
+
+/// Period of wrapped displacements, in spacings: twice as long as the ends of any bond can be moved apart.
+inline constexpr double wrap_period = 256;
 
 namespace detail {
 
@@ -87,80 +91,132 @@ HWY_INLINE std::uint16_t bits_of(D d, hn::Mask<D> mask, std::size_t first_lane) 
   return static_cast<std::uint16_t>(word << first_lane);
 }
 
+/// A bond as it is now: y = xi + eta, t as in the opening comment.
+template <class V>
+struct Deformed {
+  V y_x, y_y, y_z, t;
+};
+
+/// The rows from `lane` on of a block, one end of all their bonds. `wrapped`: displacements are known up to
+/// whole periods, so that they keep their digits however far fragments have flown.
+template <bool wrapped, class D, class Real>
+class Ends {
+ public:
+  HWY_INLINE Ends(D d, const BlockView<Real>& block, std::size_t lane)
+      : u_{block.u[0] + lane, block.u[1] + lane, block.u[2] + lane},
+        u_x_(hn::LoadU(d, u_[0])),
+        u_y_(hn::LoadU(d, u_[1])),
+        u_z_(hn::LoadU(d, u_[2])) {}
+
+  HWY_INLINE Deformed<hn::Vec<D>> deformed(D d, const BondConstants<Real>& bond) const {
+    using V = hn::Vec<D>;
+    const V eta_x = apart(d, hn::LoadU(d, u_[0] + bond.offset), u_x_);
+    const V eta_y = apart(d, hn::LoadU(d, u_[1] + bond.offset), u_y_);
+    const V eta_z = apart(d, hn::LoadU(d, u_[2] + bond.offset), u_z_);
+    const V xi_x = hn::Set(d, bond.xi[0]);
+    const V xi_y = hn::Set(d, bond.xi[1]);
+    const V xi_z = hn::Set(d, bond.xi[2]);
+    const V y_x = hn::Add(eta_x, xi_x);
+    const V y_y = hn::Add(eta_y, xi_y);
+    const V y_z = hn::Add(eta_z, xi_z);
+    const V q = hn::MulAdd(eta_z, hn::Add(y_z, xi_z),
+                           hn::MulAdd(eta_y, hn::Add(y_y, xi_y), hn::Mul(eta_x, hn::Add(y_x, xi_x))));
+    return {y_x, y_y, y_z, hn::Mul(q, hn::Set(d, bond.inverse_length2))};
+  }
+
+ private:
+  static HWY_INLINE hn::Vec<D> apart(D d, hn::Vec<D> there, hn::Vec<D> here) {
+    const hn::Vec<D> eta = hn::Sub(there, here);
+    if constexpr (!wrapped) return eta;
+    const hn::Vec<D> periods = hn::Round(hn::Mul(eta, hn::Set(d, Real(1 / wrap_period))));
+    return hn::NegMulAdd(periods, hn::Set(d, Real(wrap_period)), eta);
+  }
+
+  const Real* u_[3];
+  hn::Vec<D> u_x_, u_y_, u_z_;
+};
+
+/// Eq. (5) for bonds of the rows from `lane` on of a block, uniform or by place.
+template <bool heterogeneous, class D, class Real>
+class BreakingTest {
+ public:
+  HWY_INLINE BreakingTest(D d, const BlockView<Real>& block, std::size_t lane)
+      : uniform_t_(hn::Set(d, block.breaking_t)), half_stretch_(hn::Zero(d)) {
+    if constexpr (heterogeneous) {
+      there_ = block.local.half_stretch + lane;
+      half_stretch_ = hn::LoadU(d, there_);
+    }
+  }
+
+  template <class Law>
+  HWY_INLINE hn::Mask<D> fails(D d, const Law law, const BondConstants<Real>& bond, hn::Vec<D> t) const {
+    if constexpr (heterogeneous) {
+      const auto stretch = hn::Add(half_stretch_, hn::LoadU(d, there_ + bond.offset));
+      return hn::Ge(t, law.breaking_t(d, stretch));
+    } else {
+      return hn::Ge(t, uniform_t_);
+    }
+  }
+
+ private:
+  hn::Vec<D> uniform_t_, half_stretch_;
+  const Real* there_ = nullptr;
+};
+
+/// Clears the bits of `broken` in a word; returns how many they were.
+template <class D>
+HWY_INLINE int clear(D d, hn::Mask<D> broken, std::size_t lane, std::uint16_t& word) {
+  const std::uint16_t bits = bits_of(d, broken, lane);
+  word = static_cast<std::uint16_t>(word & ~bits);
+  return std::popcount(bits);
+}
+
 }  // namespace detail
 
-/// Period of wrapped displacements, in spacings: twice as long as the ends of any bond can be moved apart.
-inline constexpr double wrap_period = 256;
-
 /// Breaks what is stretched too far, then adds the forces of what is left. With `observing` also the strain
-/// energy (half of each bond's, its other half belongs to the other end).
-/// `heterogeneous`: properties differ by place; only such a wall pays for them. `wrapped`: displacements are
-/// known up to whole periods, so that they keep their digits however far fragments have flown.
-template <class Law, bool observing, bool heterogeneous, bool wrapped, class Real>
-HWY_INLINE void sum_block(const BlockView<Real>& block, BlockSums<Real>& sums) {
+/// energy (half of each bond's, its other half belongs to the other end). Only a `heterogeneous` wall pays
+/// for properties by place, only a `wrapped` one for displacements that are known up to whole periods, and
+/// only a state-based law for the pressures p of its particles, which add p_i + p_j to the stretch
+/// (materials/lps.hpp).
+template <bool observing, bool heterogeneous, bool wrapped, class Law, class Real>
+HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, BlockSums<Real>& sums) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::CappedTag<Real, parallel::block_rows> d;
   using V = hn::Vec<decltype(d)>;
-  const V uniform_breaking_t = hn::Set(d, block.breaking_t);
-  const auto apart = [&](V there, V here) {
-    const V eta = hn::Sub(there, here);
-    if constexpr (!wrapped) return eta;
-    const V periods = hn::Round(hn::Mul(eta, hn::Set(d, Real(1 / wrap_period))));
-    return hn::NegMulAdd(periods, hn::Set(d, Real(wrap_period)), eta);
-  };
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
-    const V ux = hn::LoadU(d, block.u[0] + lane);
-    const V uy = hn::LoadU(d, block.u[1] + lane);
-    const V uz = hn::LoadU(d, block.u[2] + lane);
-    V half_stretch = hn::Zero(d), half_stiffness = hn::Zero(d);
-    if constexpr (heterogeneous) {
-      half_stretch = hn::LoadU(d, block.local.half_stretch + lane);
-      half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
-    }
+    const detail::Ends<wrapped, decltype(d), Real> ends(d, block, lane);
+    const detail::BreakingTest<heterogeneous, decltype(d), Real> test(d, block, lane);
+    V half_stiffness = hn::Zero(d), pressure = hn::Zero(d);
+    if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
+    if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
     V fx = hn::Zero(d), fy = hn::Zero(d), fz = hn::Zero(d), energy = hn::Zero(d);
     std::uint16_t* intact = block.intact;
     for (const BondConstants<Real>& bond : block.bonds) {
       std::uint16_t& word = *intact++;
       if (word == 0) continue;
       const auto present = detail::lanes_of(d, word, lane);
-      const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
-      const V eta_x = apart(hn::LoadU(d, block.u[0] + there), ux);
-      const V eta_y = apart(hn::LoadU(d, block.u[1] + there), uy);
-      const V eta_z = apart(hn::LoadU(d, block.u[2] + there), uz);
-      const V xi_x = hn::Set(d, bond.xi[0]);
-      const V xi_y = hn::Set(d, bond.xi[1]);
-      const V xi_z = hn::Set(d, bond.xi[2]);
-      const V y_x = hn::Add(eta_x, xi_x);
-      const V y_y = hn::Add(eta_y, xi_y);
-      const V y_z = hn::Add(eta_z, xi_z);
-      const V q = hn::MulAdd(eta_z, hn::Add(y_z, xi_z),
-                             hn::MulAdd(eta_y, hn::Add(y_y, xi_y), hn::Mul(eta_x, hn::Add(y_x, xi_x))));
-      const V t = hn::Mul(q, hn::Set(d, bond.inverse_length2));
-
-      V breaking_t = uniform_breaking_t;
-      if constexpr (heterogeneous) {
-        const V stretch = hn::Add(half_stretch, hn::LoadU(d, block.local.half_stretch + there));
-        breaking_t = Law::breaking_t(d, stretch);
-      }
-      const auto broken = hn::And(present, hn::Ge(t, breaking_t));
-      if (HWY_UNLIKELY(!hn::AllFalse(d, broken))) {
-        const std::uint16_t bits = detail::bits_of(d, broken, lane);
-        word = static_cast<std::uint16_t>(word & ~bits);
-        sums.broken += std::popcount(bits);
-      }
+      [[maybe_unused]] const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
+      const auto [y_x, y_y, y_z, t] = ends.deformed(d, bond);
+      const auto broken = hn::And(present, test.fails(d, law, bond, t));
+      if (HWY_UNLIKELY(!hn::AllFalse(d, broken))) sums.broken += detail::clear(d, broken, lane, word);
       const auto pulling = hn::AndNot(broken, present);
-      V stiffness = hn::Set(d, Real{1});
-      V g = Law::force_factor(d, t);
+      const V one = hn::Set(d, Real{1});
+      const V g = law.force_factor(d, t);
+      V stiffness = one, pull = g;
       if constexpr (heterogeneous) {
         stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + there));
-        g = hn::Mul(g, stiffness);
+        pull = hn::Mul(g, stiffness);
       }
-      const V k = hn::IfThenElseZero(pulling, hn::Mul(g, hn::Set(d, bond.weight)));
+      if constexpr (Law::state_based) {
+        const V both = hn::Add(pressure, hn::LoadU(d, block.pressure + there));
+        pull = hn::MulAdd(both, hn::Sub(one, g), pull);  // 1 - g = 1 / (1 + s)
+      }
+      const V k = hn::IfThenElseZero(pulling, hn::Mul(pull, hn::Set(d, bond.weight)));
       fx = hn::MulAdd(k, y_x, fx);
       fy = hn::MulAdd(k, y_y, fy);
       fz = hn::MulAdd(k, y_z, fz);
       if constexpr (observing) {
-        V w = hn::Mul(Law::energy_factor(d, t), hn::Set(d, bond.energy_weight));
+        V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
         if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
         energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
         const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));

@@ -1,6 +1,7 @@
 /// The one implementation of Body: what stands in memory and how it is found. Its work is in
-/// column_body_step.hpp (a step in time), column_body_observe.hpp (fields and totals) and
-/// column_body_state.hpp (bonds, state, restart); body.cpp includes all of them.
+/// column_body_step.hpp (a step in time), column_body_dilatation.hpp (what a state-based law does before),
+/// column_body_observe.hpp (fields and totals) and column_body_state.hpp (bonds, state, restart); body.cpp
+/// includes all of them.
 #pragma once
 
 #include <hwy/aligned_allocator.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/error.hpp"
@@ -17,6 +19,7 @@
 #include "peridynamics/body.hpp"
 #include "peridynamics/bond_kernel.hpp"
 #include "peridynamics/domain.hpp"
+#include "peridynamics/state_kernel.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -39,8 +42,8 @@ struct Unit {
 
 /// What a thread gathers while it works.
 struct ThreadEvents {
-  explicit ThreadEvents(double energy_scale) : work(energy_scale) {}
-  ExactSum work;
+  explicit ThreadEvents(double energy_scale) : work(energy_scale), released(energy_scale) {}
+  ExactSum work, released;  ///< J; of state-based laws
   std::int64_t broken = 0;
   bool damaged = false, unstable = false;
 };
@@ -54,16 +57,33 @@ struct ThreadTotals {
   std::int64_t ruptured_first = INT64_MAX, ruptured_last = -1;
 };
 
+/// What a state-based law keeps of its particles, see materials/lps.hpp.
+template <class Real>
+struct States {
+  States(parallel::Communicator comm, const Domain& domain, double energy_scale)
+      : halo(comm, domain.halo_messages(), 1),
+        pressure(domain.padded_size()),
+        dilatation(static_cast<std::size_t>(domain.layout().local_count())),
+        released(energy_scale) {}
+
+  parallel::HaloExchange<Real> halo;  ///< of the pressure
+  std::vector<Real> pressure;         ///< p, padded
+  std::vector<double> dilatation;     ///< theta of owned particles
+  ExactSum released;                  ///< J, dilatation energy that breaking bonds took so far
+  double released_before = 0;         ///< J, before a restart
+};
+
 template <class Law, class Real>
 class ColumnBody final : public Body {
  public:
-  ColumnBody(BodySetup setup, parallel::Communicator comm)
-      : setup_(std::move(setup)),
+  ColumnBody(Law law, BodySetup setup, parallel::Communicator comm)
+      : law_(law),
+        setup_(std::move(setup)),
         comm_(comm),
         periodic_(setup_.ends == EndCondition::axial_periodic),
         threads_(parallel::thread_count()),
         domain_(setup_.lattice, setup_.families, partition(setup_, comm.size()), comm.rank(), periodic_),
-        halo_(comm, domain_.halo_messages()),
+        halo_(comm, domain_.halo_messages(), 3),
         inverse_spacing_(1 / setup_.lattice.spacing),
         work_(setup_.energy_scale) {
     // Offsets between particles are 32-bit numbers in the kernel's tables.
@@ -78,6 +98,7 @@ class ColumnBody final : public Body {
     make_thin_spots();
     make_bonds();
     make_units();
+    if constexpr (Law::state_based) state_.emplace(comm_, domain_, setup_.energy_scale);
     set_axial_profile(std::vector<double>(static_cast<std::size_t>(domain_.layout().rows), 1.0));
     const auto particles = static_cast<std::size_t>(domain_.layout().local_count());
     for (int k = 0; k < 3; ++k) {
@@ -187,6 +208,15 @@ class ColumnBody final : public Body {
   std::pair<std::int64_t, std::vector<double>> padded_heights() const;
   void make_local_properties();
   void make_thin_spots();
+  /// Factor on the stiffness of a particle at its place in padded arrays.
+  double local_stiffness(std::size_t place) const {
+    return half_stiffness_.empty() ? 1 : 2 * double{half_stiffness_[place]};
+  }
+  /// c spacing^4, J/m3: what sums over bonds are in units of.
+  double energy_scale() const {
+    const double spacing = setup_.lattice.spacing;
+    return setup_.bond_constant * (spacing * spacing * spacing) * spacing;
+  }
   double external_work() const {
     return work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
   }
@@ -198,6 +228,8 @@ class ColumnBody final : public Body {
     return static_cast<Real>(x - wrap_period * std::nearbyint(x * per_period_));
   }
   BlockView<Real> view(Unit unit);
+  template <class Use>
+  void choose_kernel(const Use& use) const;
   /// What `view` holds, summed by the kernel that it is for.
   template <bool observing>
   void sum(Unit unit, BlockSums<Real>& sums);
@@ -205,11 +237,23 @@ class ColumnBody final : public Body {
   std::pair<int, int> free_rows(Unit unit, int component) const;
   void family_volumes(Unit unit, double (&intact)[block_rows], double (&whole)[block_rows]) const;
   bool has_ruptured(Unit unit) const;
+  void count_broken(Unit unit, int broken, ThreadEvents& events) const;
+  double fracture_energy(Unit unit) const;
+  double dilatation_energy(double theta, std::size_t place) const;
+  double released_energy() const {
+    return state_->released.value(comm_) + comm_.all_reduce(state_->released_before, parallel::Reduce::max);
+  }
+  void dilate_unit(Unit unit, ThreadEvents& events);
+  void find_dilatations(std::vector<ThreadEvents>& per_thread);
   void step_unit(Unit unit, double pressure, double work_pressure, double kick, ThreadEvents& events);
   void observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals);
   template <class PerThread, class Work>
-  void with_halo(std::vector<PerThread>& per_thread, const Work& work);
+  void with_halo(parallel::HaloExchange<Real>& halo, std::span<Real* const> field,
+                 std::vector<PerThread>& per_thread, const Work& work);
+  template <class PerThread, class Work>
+  void with_forces(std::vector<PerThread>& per_thread, const Work& work);
 
+  Law law_;
   BodySetup setup_;
   parallel::Communicator comm_;
   bool periodic_;
@@ -224,6 +268,7 @@ class ColumnBody final : public Body {
   std::vector<Real> half_stretch_, half_stiffness_;  ///< padded (see LocalProperties); empty: a uniform wall
   std::vector<char> absent_;               ///< padded, 1 where thin spots leave no particle; empty: nowhere
   std::vector<double> load_share_;         ///< [particles] relative to the whole wall's; empty: 1
+  std::optional<States<Real>> state_;      ///< of state-based laws
   std::vector<Unit> interior_, boundary_;  ///< units that read no halo, units that do
 
   std::array<std::vector<double>, 3> u_, v_;  ///< m; m/s at half a step back (see first_kick_pending_)

@@ -7,21 +7,37 @@
 
 namespace rhexis::peridynamics {
 
-/// What it took to break one bond of the unit in the rows of `broken`, in units of a uniform wall's.
+/// What it took to break one bond of the unit in the rows of `broken`, in units of a uniform PMB wall's.
 template <class Law, class Real>
 double ColumnBody<Law, Real>::breaking_energy(Unit unit, const BondConstants<Real>& bond,
                                               std::uint16_t broken) const {
-  if (half_stretch_.empty()) return std::popcount(broken);
+  if (half_stretch_.empty()) return std::popcount(broken) * law_.energy_ratio(setup_.critical_stretch);
   const std::size_t here = padded_place(unit),
                     there = here + static_cast<std::size_t>(std::int64_t{bond.offset});
   double energy = 0;
   for (int rows = broken; rows != 0; rows &= rows - 1) {
     const auto row = static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(rows)));
-    const double s =
-        (double{half_stretch_[here + row]} + double{half_stretch_[there + row]}) / setup_.critical_stretch;
-    energy += s * s * (double{half_stiffness_[here + row]} + double{half_stiffness_[there + row]});
+    const double s = double{half_stretch_[here + row]} + double{half_stretch_[there + row]};
+    const double in_uniform = s / setup_.critical_stretch;
+    energy += in_uniform * in_uniform * law_.energy_ratio(s) *
+              (double{half_stiffness_[here + row]} + double{half_stiffness_[there + row]});
   }
   return energy;
+}
+
+/// J, this unit's half of what its broken bonds took: c s0^2 |xi| V_i V_j / 2 each (PMB).
+template <class Law, class Real>
+double ColumnBody<Law, Real>::fracture_energy(Unit unit) const {
+  const double s0 = setup_.critical_stretch;
+  const double per_weight = 0.25 * energy_scale() * s0 * s0 * setup_.lattice.volume(global_column(unit.slot));
+  const auto bonds = bonds_of(unit);
+  const std::uint16_t* words = intact_.data() + first_word(unit);
+  double fracture = 0;
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const auto broken = static_cast<std::uint16_t>(born(unit, b) & ~words[b]);
+    fracture += breaking_energy(unit, bonds[b], broken) * double{bonds[b].energy_weight};
+  }
+  return per_weight * fracture;
 }
 
 template <class Law, class Real>
@@ -35,7 +51,6 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   const Lattice& lattice = setup_.lattice;
   const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
   const double force_scale = setup_.bond_constant * volume;
-  const double energy_scale = force_scale * lattice.spacing;
   const double particle_volume = lattice.volume(column);
   const double load[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
   double space[block_rows];
@@ -60,7 +75,10 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   double intact[block_rows], whole[block_rows];
   if (!unbroken) family_volumes(unit, intact, whole);
   for (int lane = 0; lane < rows; ++lane) {
-    const double energy = energy_scale * static_cast<double>(sums.energy[lane]);
+    double energy = energy_scale() * static_cast<double>(sums.energy[lane]);
+    if constexpr (Law::state_based) {
+      energy += dilatation_energy(state_->dilatation[first + lane], padded_place(unit) + lane);
+    }
     const double damage = !unbroken && whole[lane] > 0 ? 1 - intact[lane] / whole[lane] : 0;
     observation_.strain_energy_density[first + lane] = energy;
     observation_.damage[first + lane] =
@@ -76,18 +94,7 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   totals.kinetic.add(0.5 * setup_.density * particle_volume * speed2);
   totals.strain.add(particle_volume * strain);
 
-  if (unbroken) return;
-  // A bond took c s0^2 |xi| V_i V_j / 2 to break; each of its ends accounts for half.
-  const double s0 = setup_.critical_stretch;
-  const double per_weight = 0.25 * energy_scale * s0 * s0 * particle_volume;
-  const auto bonds = bonds_of(unit);
-  const std::uint16_t* words = intact_.data() + first_word(unit);
-  double fracture = 0;
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const auto broken = static_cast<std::uint16_t>(born(unit, b) & ~words[b]);
-    fracture += breaking_energy(unit, bonds[b], broken) * double{bonds[b].energy_weight};
-  }
-  totals.fracture.add(per_weight * fracture);
+  if (!unbroken) totals.fracture.add(fracture_energy(unit));
 }
 
 template <class Law, class Real>
@@ -102,7 +109,13 @@ const Observation& ColumnBody<Law, Real>::observe(double pressure) {
 
   const double kick = first_kick_pending_ ? 0.0 : 0.5 * setup_.time_step;
   std::vector<ThreadTotals> per_thread(static_cast<std::size_t>(threads_), ThreadTotals(setup_.energy_scale));
-  with_halo(per_thread, [&](Unit unit, ThreadTotals& totals) { observe_unit(unit, pressure, kick, totals); });
+  std::vector<ThreadEvents> breaking(per_thread.size(), ThreadEvents(setup_.energy_scale));
+  if constexpr (Law::state_based) find_dilatations(breaking);
+  std::int64_t dilating = 0;  // broken before the forces
+  for (const ThreadEvents& t : breaking) dilating += t.broken;
+  intact_directed_ -= dilating;
+  with_forces(per_thread,
+              [&](Unit unit, ThreadTotals& totals) { observe_unit(unit, pressure, kick, totals); });
   observed_ = per_thread.front();
   for (std::size_t t = 1; t < per_thread.size(); ++t) {
     const ThreadTotals& other = per_thread[t];
@@ -115,8 +128,8 @@ const Observation& ColumnBody<Law, Real>::observe(double pressure) {
     observed_.ruptured_first = std::min(observed_.ruptured_first, other.ruptured_first);
     observed_.ruptured_last = std::max(observed_.ruptured_last, other.ruptured_last);
   }
-  pending_broken_ += observed_.broken;
   intact_directed_ -= observed_.broken;
+  pending_broken_ += dilating + observed_.broken;
   damaged_ = damaged_ || observed_.max_damage >= rupture_damage;
   return observation_;
 }
@@ -127,6 +140,7 @@ Totals ColumnBody<Law, Real>::totals() const {
   totals.kinetic = observed_.kinetic.value(comm_);
   totals.strain = observed_.strain.value(comm_);
   totals.fracture = observed_.fracture.value(comm_);
+  if constexpr (Law::state_based) totals.fracture += released_energy();
   totals.external_work = external_work();
   totals.max_displacement = max_displacement();
   totals.max_damage = comm_.all_reduce(observed_.max_damage, parallel::Reduce::max);

@@ -170,9 +170,10 @@ BondWordLayout ColumnBody<Law, Real>::bond_word_layout() const {
 
 template <class Law, class Real>
 Body::Saved ColumnBody<Law, Real>::save() const {
-  Saved saved{
-      u_, v_, {}, first_kick_pending_, 0, load_speed_, frame_, per_period_ > 0, steps_ % frame_interval};
+  Saved saved{u_, v_,          {},     first_kick_pending_, 0,
+              0,  load_speed_, frame_, per_period_ > 0,     steps_ % frame_interval};
   saved.external_work = external_work();
+  if constexpr (Law::state_based) saved.released_energy = released_energy();
   saved.words.reserve(intact_.size());
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
     for (std::size_t b = 0; b < bonds_of({slot, 0}).size(); ++b) {
@@ -190,6 +191,7 @@ void ColumnBody<Law, Real>::restore(const Saved& saved) {
   v_ = saved.leapfrog_velocity;
   first_kick_pending_ = saved.first_kick_pending;
   work_before_ = saved.external_work;
+  if constexpr (Law::state_based) state_->released_before = saved.released_energy;
   load_speed_ = saved.load_speed;
   frame_ = saved.frame;
   per_period_ = saved.wrapped ? 1 / wrap_period : 0;

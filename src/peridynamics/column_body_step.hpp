@@ -13,21 +13,29 @@ BlockView<Real> ColumnBody<Law, Real>::view(Unit unit) {
                         bonds_of(unit),
                         intact_.data() + first_word(unit),
                         static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
+  if constexpr (Law::state_based) block.pressure = state_->pressure.data() + place;
   if (!half_stretch_.empty()) block.local = {half_stretch_.data() + place, half_stiffness_.data() + place};
   return block;
+}
+
+/// Calls `use` for the kernel that the wall needs, with flags heterogeneous and wrapped.
+template <class Law, class Real>
+template <class Use>
+void ColumnBody<Law, Real>::choose_kernel(const Use& use) const {
+  const bool wrapped = per_period_ > 0;
+  if (half_stretch_.empty()) {
+    wrapped ? use.template operator()<false, true>() : use.template operator()<false, false>();
+  } else {
+    wrapped ? use.template operator()<true, true>() : use.template operator()<true, false>();
+  }
 }
 
 template <class Law, class Real>
 template <bool observing>
 void ColumnBody<Law, Real>::sum(Unit unit, BlockSums<Real>& sums) {
-  const bool wrapped = per_period_ > 0;
-  if (half_stretch_.empty()) {
-    wrapped ? sum_block<Law, observing, false, true>(view(unit), sums)
-            : sum_block<Law, observing, false, false>(view(unit), sums);
-  } else {
-    wrapped ? sum_block<Law, observing, true, true>(view(unit), sums)
-            : sum_block<Law, observing, true, false>(view(unit), sums);
-  }
+  choose_kernel([&]<bool heterogeneous, bool wrapped>() {
+    sum_block<observing, heterogeneous, wrapped>(law_, view(unit), sums);
+  });
 }
 
 /// Rows of a unit, [first, past), whose motion along axis `component` the ends do not hold.
@@ -71,20 +79,40 @@ bool ColumnBody<Law, Real>::has_ruptured(Unit unit) const {
   return false;
 }
 
-/// Runs `work(unit, per_thread[t])` over all units; the halo travels while units that do not need it are
-/// done.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::count_broken(Unit unit, int broken, ThreadEvents& events) const {
+  if (broken == 0) return;
+  events.broken += broken;
+  if (!damaged_ && !events.damaged) events.damaged = has_ruptured(unit);
+}
+
+/// Runs `work(unit, per_thread[t])` over all units; the halo of `field` travels while units that do not need
+/// it are done.
 template <class Law, class Real>
 template <class PerThread, class Work>
-void ColumnBody<Law, Real>::with_halo(std::vector<PerThread>& per_thread, const Work& work) {
+void ColumnBody<Law, Real>::with_halo(parallel::HaloExchange<Real>& halo, std::span<Real* const> field,
+                                      std::vector<PerThread>& per_thread, const Work& work) {
   const auto run = [&](const std::vector<Unit>& units) {
     parallel::for_each_share(threads_, units.size(), [&](int thread, std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) work(units[i], per_thread[thread]);
     });
   };
-  halo_.start(current());
+  halo.start(field);
   run(interior_);
-  halo_.finish(current());
+  halo.finish(field);
   run(boundary_);
+}
+
+/// The same with the halo of what forces are still missing: the dilatations' pressure, where the law has one.
+template <class Law, class Real>
+template <class PerThread, class Work>
+void ColumnBody<Law, Real>::with_forces(std::vector<PerThread>& per_thread, const Work& work) {
+  if constexpr (Law::state_based) {
+    Real* const pressure = state_->pressure.data();
+    with_halo(state_->halo, {&pressure, 1}, per_thread, work);
+  } else {
+    with_halo(halo_, current(), per_thread, work);
+  }
 }
 
 template <class Law, class Real>
@@ -92,10 +120,7 @@ void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pr
                                       ThreadEvents& events) {
   BlockSums<Real> sums;
   sum<false>(unit, sums);
-  if (sums.broken > 0) {
-    events.broken += sums.broken;
-    if (!damaged_ && !events.damaged) events.damaged = has_ruptured(unit);
-  }
+  count_broken(unit, sums.broken, events);
 
   const std::size_t column = global_column(unit.slot);
   const Lattice& lattice = setup_.lattice;
@@ -138,8 +163,10 @@ StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure)
   const double work_pressure = 0.5 * (pressure + next_pressure);
   load_speed_ += setup_.time_step * std::abs(pressure) * largest_load_ / setup_.density;
   std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
-  with_halo(per_thread,
-            [&](Unit unit, ThreadEvents& events) { step_unit(unit, pressure, work_pressure, kick, events); });
+  if constexpr (Law::state_based) find_dilatations(per_thread);
+  with_forces(per_thread, [&](Unit unit, ThreadEvents& events) {
+    step_unit(unit, pressure, work_pressure, kick, events);
+  });
   now_ = 1 - now_;
   first_kick_pending_ = false;
   ++steps_;

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "peridynamics/materials/pmb.hpp"
+#include "peridynamics/materials/with_law.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -37,6 +37,31 @@ Eigen::SparseMatrix<double> stiffness(const BodySetup& setup) {
   return matrix;
 }
 
+/// What the dilatations of a state-based law add: c m V_i times the second derivative of their energy, as in
+/// materials/lps.hpp.
+Eigen::SparseMatrix<double> dilatation_stiffness(const BodySetup& setup, const Lps& law) {
+  const Lattice& lattice = setup.lattice;
+  const auto columns = static_cast<Eigen::Index>(lattice.section.size());
+  const double weighted_volume = law.weighted_volume(lattice.horizon);
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd size(columns);
+  for (std::size_t i = 0; i < lattice.section.size(); ++i) {
+    const int row = static_cast<int>(i);
+    size[row] = 2 * law.dilatation_energy(1) * setup.bond_constant * weighted_volume * lattice.volume(i);
+    for (const Bond& bond : setup.families.of(i)) {
+      for (int a = 0; a < 2; ++a) {
+        const double value = 3 / weighted_volume * bond.weight *
+                             lattice.volume(static_cast<std::size_t>(bond.other)) * bond.xi[a] / bond.length;
+        entries.emplace_back(row, 2 * bond.other + a, value);
+        entries.emplace_back(row, 2 * row + a, -value);
+      }
+    }
+  }
+  Eigen::SparseMatrix<double> dilatation(columns, 2 * columns);
+  dilatation.setFromTriplets(entries.begin(), entries.end());
+  return dilatation.transpose() * size.asDiagonal() * dilatation;
+}
+
 /// Takes out what would move or turn the slice as a whole: its stiffness does not resist that.
 void balance(const CrossSection& s, Eigen::VectorXd& load) {
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(load.size(), 3);
@@ -52,7 +77,7 @@ void balance(const CrossSection& s, Eigen::VectorXd& load) {
 }  // namespace
 
 double lame_displacement(const Parameters& p, double pressure, double r) {
-  const double nu = Pmb::poisson_ratio;
+  const double nu = p.law.poisson_ratio;
   const double inner2 = p.inner_radius * p.inner_radius, outer2 = p.outer_radius * p.outer_radius;
   return (1 + nu) / p.young_modulus * pressure * inner2 / (outer2 - inner2) * ((1 - 2 * nu) * r + outer2 / r);
 }
@@ -65,7 +90,10 @@ ElasticError elastic_error(const Parameters& p, const BodySetup& setup) {
     load[static_cast<Eigen::Index>(2 * i + 1)] = setup.lattice.volume(i) * setup.layer.by[i];
   }
   balance(s, load);
-  const Eigen::SparseMatrix<double> matrix = stiffness(setup);
+  Eigen::SparseMatrix<double> matrix = stiffness(setup);
+  with_law(setup.law, [&]<class Law>(const Law& law) {
+    if constexpr (Law::state_based) matrix += dilatation_stiffness(setup, law);
+  });
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(matrix);
   solver.setTolerance(1e-8);
   Eigen::VectorXd u = solver.solve(load);

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "parallel/exact_sum.hpp"
+#include "peridynamics/time_steps.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -23,9 +24,9 @@ class Relaxation {
  public:
   Relaxation(BodySetup setup, double pressure, parallel::Communicator comm)
       : setup_(std::move(setup)), pressure_(pressure), comm_(comm) {
-    setup_.critical_stretch = unbreakable;
     // Inertia is only a means here: the longest step finds the way in the fewest.
-    step_ = stable_time_step(setup_.lattice, setup_.families, setup_.bond_constant, setup_.density);
+    step_ = stable_time_step(setup_);
+    setup_.critical_stretch = unbreakable;
     body_ = make_body(BodySetup(setup_), comm);
     for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c)
       load_ = std::max(load_, pressure * std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));

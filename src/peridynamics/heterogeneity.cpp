@@ -46,21 +46,25 @@ std::vector<WallFactors> Heterogeneity::along(double x, double y, std::span<cons
   return factors;
 }
 
-double Heterogeneity::largest_stiffness(const Lattice& lattice) const {
-  if (uniformly_stiff_) return 1;  // nothing to draw
+WallFactors Heterogeneity::largest(const Lattice& lattice) const {
+  if (uniform()) return {};
   std::vector<double> z(static_cast<std::size_t>(lattice.rows));
   for (std::int64_t row = 0; row < lattice.rows; ++row)
     z[static_cast<std::size_t>(row)] = lattice.height(row);
   const int threads = parallel::thread_count();
-  std::vector<double> largest(static_cast<std::size_t>(threads), 0.0);
+  std::vector<WallFactors> largest(static_cast<std::size_t>(threads), WallFactors{0, 0});
+  const auto raise = [](WallFactors& to, const WallFactors& f) {
+    to = {std::max(to.critical_stretch, f.critical_stretch), std::max(to.stiffness, f.stiffness)};
+  };
   parallel::for_each_share(
       threads, lattice.section.size(), [&](int thread, std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
           for (const WallFactors& f : along(lattice.section.x[c], lattice.section.y[c], z))
-            largest[thread] = std::max(largest[thread], f.stiffness);
+            raise(largest[thread], f);
         }
       });
-  return *std::ranges::max_element(largest);
+  for (const WallFactors& f : largest) raise(largest.front(), f);
+  return largest.front();
 }
 
 }  // namespace rhexis::peridynamics

@@ -32,12 +32,13 @@ class Heterogeneity {
   explicit Heterogeneity(const Parameters& p);
 
   bool uniform() const { return uniform_; }
+  bool uniformly_stiff() const { return uniformly_stiff_; }
 
   /// Factors at (x, y, z[i]), m.
   std::vector<WallFactors> along(double x, double y, std::span<const double> z) const;
 
-  /// Over all particles of the lattice; no bond is stiffer.
-  double largest_stiffness(const Lattice& lattice) const;
+  /// The largest factors of any particle of the lattice; no bond has larger ones.
+  WallFactors largest(const Lattice& lattice) const;
 
  private:
   /// From a standard normal value to a factor.

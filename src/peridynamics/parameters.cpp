@@ -32,15 +32,14 @@ ParameterList declare(Parameters& p) {
 
       {"material.density", &p.density, "kg/m3", "\"1.3 g/cm3\"", "Mass density of the wall.", "Table 2",
        Range::positive()},
-      {"material.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"",
-       "Young's modulus of the wall; Poisson's ratio is 1/4 in the bond-based law.", "Table 2, Eq. (4)",
-       Range::positive()},
+      {"material.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"", "Young's modulus of the wall.",
+       "Table 2, Eq. (4)", Range::positive()},
       {"material.critical_stretch", &p.critical_stretch, "1", "\"auto\"",
        "Stretch at which a bond breaks, s0; \"auto\" is what energy_release_rate gives, or 0.25.",
        "Table 2, Eq. (5)", Range::between(1e-6, 10)},
       {"material.energy_release_rate", &p.energy_release_rate, "J/m2", "\"auto\"",
        "Work to tear a unit of area, G0, in place of critical_stretch: s0 = sqrt(5 G0 / (6 E delta)) then "
-       "follows the horizon.",
+       "follows the horizon (with law = \"fung\", sqrt(ln(1 + a s0^2) / a) of that s0; not with \"lps\").",
        "Silling & Askari 2005, with Eq. (4)", Range::positive()},
 
       {"discretisation.cross_section",
@@ -170,6 +169,8 @@ ParameterList declare(Parameters& p) {
       {"time.allow_unstable", &p.allow_unstable, "", "false",
        "Take a time.step above the stable one all the same: to see where instability begins.", ""},
   };
+  const ParameterList law = declare(p.law);  // with the other keys of its section
+  all.insert(std::ranges::find(all, "discretisation.cross_section", &Parameter::key), law.begin(), law.end());
   std::ranges::copy(declare(p.scatter), std::back_inserter(all));
   std::ranges::copy(declare(p.spots), std::back_inserter(all));
   return all;

@@ -8,6 +8,7 @@
 
 #include "core/parameter.hpp"
 #include "peridynamics/heterogeneity_parameters.hpp"
+#include "peridynamics/law_parameters.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -18,9 +19,10 @@ struct Parameters {
   double inner_radius = 0, outer_radius = 0, length = 0;  ///< m
 
   double density = 0;        ///< kg/m3
-  double young_modulus = 0;  ///< Pa; Poisson's ratio is 1/4 in the bond-based law
+  double young_modulus = 0;  ///< Pa
   std::optional<double> critical_stretch;
   std::optional<double> energy_release_rate;  ///< J/m2; empty once critical_stretch has been found from it
+  LawChoice law;
 
   std::string cross_section;       ///< "lattice" | "polar"
   std::string surface_correction;  ///< see surface_correction.hpp

@@ -5,15 +5,45 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "peridynamics/dilatation_bound.hpp"
 #include "peridynamics/heterogeneity.hpp"
-#include "peridynamics/materials/pmb.hpp"
+#include "peridynamics/materials/with_law.hpp"
 
 namespace rhexis::peridynamics {
 
+double stable_time_step(const BodySetup& setup) {
+  const Lattice& lattice = setup.lattice;
+  return with_law(setup.law, [&]<class Law>(const Law& law) {
+    // Where it makes no difference the wall's random fields are not drawn.
+    const WallFactors largest = setup.heterogeneity.uniformly_stiff() && !Law::hardens
+                                    ? WallFactors{}
+                                    : setup.heterogeneity.largest(lattice);
+    const double hardening = law.stiffness_ratio(setup.critical_stretch * largest.critical_stretch);
+    const double of_bonds = stable_time_step(lattice, setup.families, setup.bond_constant, setup.density) /
+                            std::sqrt(largest.stiffness * hardening);
+    if constexpr (!Law::state_based) {
+      return of_bonds;
+    } else {
+      if (law.kappa() <= 0) return of_bonds;  // dilatation makes it softer
+      // Squared frequencies of stretches, (2 / of_bonds)^2, and of dilatations add up at most.
+      const bool periodic = setup.ends == EndCondition::axial_periodic;
+      const double energy =
+          setup.bond_constant * law.weighted_volume(lattice.horizon) * law.dilatation_energy(1);
+      const double squared = 2 * energy * largest.stiffness *
+                             dilatation_bound(lattice, setup.families, periodic) /
+                             (setup.density * lattice.spacing * lattice.spacing);
+      return of_bonds / std::sqrt(1 + squared * of_bonds * of_bonds / 4);
+    }
+  });
+}
+
+double stable_time_step(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
+  return stable_time_step(make_setup(p, lattice, families, 0));
+}
+
 TimeSteps time_steps(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
   TimeSteps t;
-  t.stable = stable_time_step(lattice, families, Pmb::bond_constant(p.young_modulus, *p.horizon), p.density) /
-             std::sqrt(Heterogeneity(p).largest_stiffness(lattice));
+  t.stable = stable_time_step(p, lattice, families);
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
   if (t.step > t.stable && !p.allow_unstable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +

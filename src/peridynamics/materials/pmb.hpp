@@ -17,6 +17,8 @@
 namespace rhexis::peridynamics {
 
 struct Pmb {
+  static constexpr bool state_based = false;
+  static constexpr bool hardens = false;  ///< stiffness grows with stretch
   static constexpr double poisson_ratio = 0.25;
 
   /// Eq. (4): c = 6 E / (pi delta^4 (1 - 2 nu)) with nu = 1/4, N/m6; E in Pa, delta in m.
@@ -38,6 +40,10 @@ struct Pmb {
   static double critical_stretch(double young_modulus, double horizon, double energy_release_rate) {
     return std::sqrt(5 * energy_release_rate / (6 * young_modulus * horizon));
   }
+
+  /// Energy and stiffness of a bond relative to c |xi| s^2 / 2 and to c, which other laws may exceed.
+  static double energy_ratio(double) { return 1; }
+  static double stiffness_ratio(double) { return 1; }
 
   /// Eq. (5) in terms of t.
   static double breaking_t(double critical_stretch) { return critical_stretch * (2 + critical_stretch); }
@@ -68,6 +74,14 @@ struct Pmb {
       const V series = hn::MulAdd(e, hn::Set(d, Real(0.375)), hn::Set(d, Real(0.5)));
       return hn::NegMulAdd(hn::Mul(e, r), series, g);
     }
+  }
+
+  /// s = g (1 + s), with g = force_factor(t) and 1 + s = (1 + t)(1 - g): no root, and as accurate as g.
+  template <class D, class V>
+  static HWY_INLINE V stretch(D d, V t, V g) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    const V one = hn::Set(d, hn::TFromD<D>{1});
+    return hn::Mul(hn::Mul(g, hn::Add(one, t)), hn::Sub(one, g));
   }
 
   /// s^2 / 2: the micropotential is w = c |xi| s^2 / 2 (J/m6).

@@ -5,33 +5,14 @@
 
 #include <cmath>
 #include <numbers>
-#include <vector>
+
+#include "support/laws.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-template <class Real>
-Real force_factor(Real t) {
-  const hn::CappedTag<Real, 1> d;
-  return hn::GetLane(Pmb::force_factor(d, hn::Set(d, t)));
-}
-
-template <class Real>
-Real energy_factor(Real t) {
-  const hn::CappedTag<Real, 1> d;
-  return hn::GetLane(Pmb::energy_factor(d, hn::Set(d, t)));
-}
-
-/// t of a stretch s, in the precision of the kernel.
-template <class Real>
-Real t_of(long double s) {
-  return static_cast<Real>(s * (2 + s));
-}
-
-const std::vector<long double> stretches = {-0.9L, -0.5L, -0.1L, -1e-3L, -1e-5L, 1e-5L,
-                                            1e-3L, 0.05L, 0.1L,  0.25L,  2.0L};
+using test::stretches;
+using test::t_of;
 
 TEST(Pmb, BondConstantMatchesBulkModulus) {
   const double young = 3.5e6, horizon = 350e-6;
@@ -44,12 +25,12 @@ TEST(Pmb, ForceFactorIsStretchOverOnePlusStretch) {
   for (long double s : stretches) {
     const auto t64 = t_of<double>(s);
     const long double exact64 = 1 - 1 / std::sqrt(1 + static_cast<long double>(t64));
-    EXPECT_NEAR(force_factor(t64) / static_cast<double>(exact64), 1, 4e-15)
+    EXPECT_NEAR(test::force_factor(Pmb{}, t64) / static_cast<double>(exact64), 1, 4e-15)
         << "s = " << static_cast<double>(s);
     // Single precision: as the header promises.
     const auto t32 = t_of<float>(s);
     const long double exact32 = 1 - 1 / std::sqrt(1 + static_cast<long double>(t32));
-    EXPECT_NEAR(force_factor(t32), static_cast<double>(exact32),
+    EXPECT_NEAR(test::force_factor(Pmb{}, t32), static_cast<double>(exact32),
                 1e-6 * std::abs(static_cast<double>(exact32)) + 5e-11)
         << "s = " << static_cast<double>(s);
   }
@@ -59,8 +40,10 @@ TEST(Pmb, ForceIsTheDerivativeOfTheEnergy) {
   // dw/d|y| = c s with w = c |xi| s^2/2: in terms of t, d(s^2/2)/ds = s = g (1 + s).
   for (long double s : stretches) {
     const double h = 1e-6;
-    const double slope = (energy_factor(t_of<double>(s + h)) - energy_factor(t_of<double>(s - h))) / (2 * h);
-    EXPECT_NEAR(slope, force_factor(t_of<double>(s)) * (1 + static_cast<double>(s)), 1e-9);
+    const double slope =
+        (test::energy_factor(Pmb{}, t_of<double>(s + h)) - test::energy_factor(Pmb{}, t_of<double>(s - h))) /
+        (2 * h);
+    EXPECT_NEAR(slope, test::force_factor(Pmb{}, t_of<double>(s)) * (1 + static_cast<double>(s)), 1e-9);
   }
 }
 
@@ -89,8 +72,8 @@ TEST(Pmb, EnergyReleaseRateIsTheEnergyOfTheBondsThatCrossAPlane) {
 }
 
 TEST(Pmb, CoincidentParticlesHaveAFiniteForce) {
-  EXPECT_TRUE(std::isfinite(force_factor(-1.0f)));
-  EXPECT_TRUE(std::isfinite(force_factor(-1.0)));
+  EXPECT_TRUE(std::isfinite(test::force_factor(Pmb{}, -1.0f)));
+  EXPECT_TRUE(std::isfinite(test::force_factor(Pmb{}, -1.0)));
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+/// ColumnBody: what a state-based law does before forces can be summed.
+#pragma once
+
+#include "peridynamics/column_body.hpp"
+
+namespace rhexis::peridynamics {
+
+/// Of one particle, J/m3, for its place in padded arrays.
+template <class Law, class Real>
+double ColumnBody<Law, Real>::dilatation_energy(double theta, std::size_t place) const {
+  const double weighted_volume = Law::weighted_volume(setup_.lattice.horizon / setup_.lattice.spacing);
+  return energy_scale() * local_stiffness(place) * weighted_volume * law_.dilatation_energy(theta);
+}
+
+/// Breaks bonds of a unit, then finds the dilatations and pressures of its particles.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::dilate_unit(Unit unit, ThreadEvents& events) {
+  ExtensionSums<Real> sums;
+  choose_kernel([&]<bool heterogeneous, bool wrapped>() {
+    sum_extensions<heterogeneous, wrapped>(law_, view(unit), sums);
+  });
+  count_broken(unit, sums.broken, events);
+
+  const Lattice& lattice = setup_.lattice;
+  const double per_extension = 3 / Law::weighted_volume(lattice.horizon / lattice.spacing);
+  double released = 0;
+  for (int lane = 0; lane < domain_.rows_in(unit.block); ++lane) {
+    const std::size_t place = padded_place(unit) + static_cast<std::size_t>(lane);
+    const double theta = per_extension * double{sums.intact[lane]};
+    state_->dilatation[particle(unit) + static_cast<std::size_t>(lane)] = theta;
+    state_->pressure[place] = static_cast<Real>(0.5 * law_.kappa() * local_stiffness(place) * theta);
+    if (sums.broken > 0) {
+      const double before = theta + per_extension * double{sums.lost[lane]};
+      released += dilatation_energy(before, place) - dilatation_energy(theta, place);
+    }
+  }
+  events.released.add(lattice.volume(global_column(unit.slot)) * released);
+}
+
+template <class Law, class Real>
+void ColumnBody<Law, Real>::find_dilatations(std::vector<ThreadEvents>& per_thread) {
+  const auto u = current();
+  with_halo(halo_, u, per_thread, [&](Unit unit, ThreadEvents& events) { dilate_unit(unit, events); });
+  for (const ThreadEvents& t : per_thread) state_->released.add(t.released);
+}
+
+}  // namespace rhexis::peridynamics

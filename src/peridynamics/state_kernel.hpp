@@ -1,0 +1,47 @@
+/// The inner loop that a state-based law runs before the forces' (bond_kernel.hpp): extensions of each
+/// particle's family. Gathered as forces are; both ends of a bond break it here, in the same step.
+#pragma once
+
+#include "peridynamics/bond_kernel.hpp"
+
+namespace rhexis::peridynamics {
+
+/// Sums over each row's family of w V_j e / spacing^4.
+template <class Real>
+struct ExtensionSums {
+  alignas(64) Real intact[parallel::block_rows];
+  alignas(64) Real lost[parallel::block_rows];  ///< of bonds that broke now
+  int broken = 0;                               ///< directed bonds that broke now
+};
+
+/// Breaks what is stretched too far, then sums the extensions of what is left.
+template <bool heterogeneous, bool wrapped, class Law, class Real>
+HWY_INLINE void sum_extensions(const Law law, const BlockView<Real>& block, ExtensionSums<Real>& sums) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<Real, parallel::block_rows> d;
+  using V = hn::Vec<decltype(d)>;
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
+    const detail::Ends<wrapped, decltype(d), Real> ends(d, block, lane);
+    const detail::BreakingTest<heterogeneous, decltype(d), Real> test(d, block, lane);
+    V intact = hn::Zero(d), lost = hn::Zero(d);
+    std::uint16_t* words = block.intact;
+    for (const BondConstants<Real>& bond : block.bonds) {
+      std::uint16_t& word = *words++;
+      if (word == 0) continue;
+      const auto present = detail::lanes_of(d, word, lane);
+      const V t = ends.deformed(d, bond).t;
+      const V s = law.stretch(d, t, law.force_factor(d, t));
+      const V extension = hn::Mul(s, hn::Set(d, bond.energy_weight));
+      const auto broken = hn::And(present, test.fails(d, law, bond, t));
+      if (HWY_UNLIKELY(!hn::AllFalse(d, broken))) {
+        sums.broken += detail::clear(d, broken, lane, word);
+        lost = hn::Add(lost, hn::IfThenElseZero(broken, extension));
+      }
+      intact = hn::Add(intact, hn::IfThenElseZero(hn::AndNot(broken, present), extension));
+    }
+    hn::Store(intact, d, sums.intact + lane);
+    hn::Store(lost, d, sums.lost + lane);
+  }
+}
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,38 @@
+// The wall at rest under a small pressure, in plane strain, against Lame.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "peridynamics/elastic_error.hpp"
+#include "peridynamics/time_steps.hpp"
+#include "support/vessels.hpp"
+
+namespace rhexis::test {
+
+/// As elastic_error, of the engine brought to rest in so many steps.
+inline peridynamics::ElasticError error_at_rest(const peridynamics::Parameters& p,
+                                                peridynamics::BodySetup setup, int steps) {
+  setup.time_step = 0.9 * peridynamics::stable_time_step(setup);
+  const auto body = peridynamics::make_body(peridynamics::BodySetup(setup), self());
+  const double pressure = 500;  // strains of 5e-4: small
+  bring_to_rest(*body, pressure, steps);
+  EXPECT_LT(body->totals().kinetic, 1e-5 * body->totals().strain) << "not at rest";
+
+  double error = 0, size = 0, least = INFINITY, most = 0;
+  const PointLayout& l = body->layout();
+  for (std::int64_t c = 0; c < l.columns; ++c) {
+    const auto x = body->reference_position(c, 0);
+    const double r = std::hypot(x[0], x[1]);
+    const auto i = static_cast<std::size_t>(c * l.rows);
+    const double u = (body->displacement()[0][i] * x[0] + body->displacement()[1][i] * x[1]) / r;
+    const double exact = peridynamics::lame_displacement(p, pressure, r);
+    const double area = setup.lattice.section.area[static_cast<std::size_t>(c)];
+    error += area * (u - exact) * (u - exact);
+    size += area * exact * exact;
+    least = std::min(least, u / exact);
+    most = std::max(most, u / exact);
+  }
+  return {std::sqrt(error / size), most / least - 1};
+}
+
+}  // namespace rhexis::test
