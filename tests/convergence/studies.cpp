@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "peridynamics/equilibrium.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::verification {
@@ -56,8 +57,8 @@ double inner_product(const Field& a, const Field& b) {
 
 constexpr double strain_amplitude = 1e-5;
 
-Field initial_displacement(const Body& body, const Parameters& p) {
-  const double scale = strain_amplitude * p.inner_radius / breathing_shape(p, p.inner_radius);
+Field initial_displacement(const Body& body, const Parameters& p, double amplitude = strain_amplitude) {
+  const double scale = amplitude * p.inner_radius / breathing_shape(p, p.inner_radius);
   return test::sample(body, radial([&](double r) { return scale * breathing_shape(p, r); }));
 }
 
@@ -284,6 +285,30 @@ std::vector<Dispersion> dispersion(double horizon_ratio) {
   return result;
 }
 
+std::vector<double> energy_drift(const Discretisation& d, double amplitude, double fraction, long steps) {
+  const Parameters p = vessel(d);
+  const BodySetup setup = test::setup_of(p, fraction * stable_step(d));
+  const auto body = make_body(BodySetup(setup), test::self());
+  body->set_state(initial_displacement(*body, p, amplitude), test::sample(*body, test::nothing));
+  constexpr long parts = 10;
+  std::vector<double> means;
+  for (long part = 0; part < parts; ++part) {
+    double sum = 0;
+    long looks = 0;
+    for (long i = 0; i < steps / parts; ++i) {
+      body->advance(0, 0);
+      if (i % 100 != 0) continue;
+      sum += test::shadow_energy(*body, setup);
+      i += 2;
+      ++looks;
+    }
+    means.push_back(sum / static_cast<double>(looks));
+  }
+  std::vector<double> drift;
+  for (double mean : means) drift.push_back(mean / means.front() - 1);
+  return drift;
+}
+
 std::vector<Ring> expansion(const Discretisation& d, double pressure) {
   const Parameters p = vessel(d);
   const auto body = make_body(test::setup_of(p, 0.9 * stable_step(d)), test::self());
@@ -303,6 +328,33 @@ std::vector<Ring> expansion(const Discretisation& d, double pressure) {
   std::vector<Ring> result;
   for (auto& [key, ring] : rings) result.push_back({ring.r, ring.displacement / count[key]});
   return result;
+}
+
+FreeEnds free_ends(const Discretisation& d, int rows) {
+  Parameters p = vessel(d);
+  p.ends = "free";
+  p.length = rows * *p.spacing;
+  constexpr double pressure = 500;  // strains of 5e-4: small
+  const auto body = make_body(test::setup_of(p, 1e-7), test::self());
+  const Equilibrium rest = find_equilibrium(test::setup_of(p, 1e-7), pressure, 1e-4, test::self());
+  const double inner2 = p.inner_radius * p.inner_radius, outer2 = p.outer_radius * p.outer_radius;
+  const double strain = pressure * inner2 / (p.young_modulus * (outer2 - inner2));
+  const PointLayout& l = body->layout();
+  const std::int64_t middle = l.rows / 2;
+  const Lattice lattice = make_lattice(p);
+  double error = 0, size = 0, slope = 0, area = 0;
+  for (std::int64_t c = 0; c < l.columns; ++c) {
+    const auto x = body->reference_position(c, middle);
+    const auto at = [&](std::int64_t row) { return static_cast<std::size_t>(c * l.rows + row); };
+    const double r = std::hypot(x[0], x[1]), weight = lattice.section.area[static_cast<std::size_t>(c)];
+    const double u = (rest.displacement[0][at(middle)] * x[0] + rest.displacement[1][at(middle)] * x[1]) / r;
+    const double exact = strain * ((1 - nu) * r + (1 + nu) * outer2 / r);
+    error += weight * (u - exact) * (u - exact);
+    size += weight * exact * exact;
+    slope += weight * (rest.displacement[2][at(middle + 1)] - rest.displacement[2][at(middle - 1)]);
+    area += weight;
+  }
+  return {std::sqrt(error / size), slope / (2 * lattice.row_spacing * area) / (-2 * nu * strain) - 1};
 }
 
 }  // namespace rhexis::verification

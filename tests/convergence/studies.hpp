@@ -53,11 +53,23 @@ struct Dispersion {
 };
 std::vector<Dispersion> dispersion(double horizon_ratio);
 
+/// Energy of the vessel that breathes undamped, from strains of `amplitude`, with a step of `fraction` of the
+/// stable one: means over tenths of so many steps, relative to the first, less 1.
+std::vector<double> energy_drift(const Discretisation& d, double amplitude, double fraction, long steps);
+
 /// Mean radial displacement (m) of each ring of a polar vessel at rest under a dead pressure (Pa) of any
 /// size.
 struct Ring {
   double r = 0, displacement = 0;
 };
 std::vector<Ring> expansion(const Discretisation& d, double pressure);
+
+/// A vessel with free ends, so many rows long, at rest under a small pressure, against Lame's tube without
+/// axial force, at mid-length: L2 error of the radial displacement relative to his, and the axial strain over
+/// his less 1.
+struct FreeEnds {
+  double displacement = 0, axial_strain = 0;
+};
+FreeEnds free_ends(const Discretisation& d, int rows);
 
 }  // namespace rhexis::verification

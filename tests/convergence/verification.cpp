@@ -2,6 +2,8 @@
 //
 //   verification elasticity|energy|breathing|time_step|precision|expansion DISCRETISATION [NUMBER]
 //   verification dispersion HORIZON_RATIO
+//   verification drift DISCRETISATION AMPLITUDE STEPS
+//   verification free_ends DISCRETISATION ROWS
 //
 // DISCRETISATION: cross-section, surface correction, layer, spacings across the wall, horizon in spacings.
 #include <cstdio>
@@ -55,6 +57,15 @@ int run(int argc, char** argv) {
     std::printf("error\n%.10g\n", time_step_error(d, number));
   } else if (study == "precision") {
     std::printf("difference\n%.10g\n", precision_error(d));
+  } else if (study == "drift" && argc == 9) {
+    const long steps = std::atol(argv[8]);
+    std::puts("step,drift");
+    long part = 0;
+    for (double drift : energy_drift(d, number, 0.8, steps))
+      std::printf("%ld,%.10g\n", ++part * steps / 10, drift);
+  } else if (study == "free_ends" && argc == 8) {
+    const FreeEnds e = free_ends(d, std::atoi(argv[7]));
+    std::printf("displacement,axial_strain\n%.10g,%.10g\n", e.displacement, e.axial_strain);
   } else if (study == "expansion") {
     std::puts("r_m,displacement_m");
     for (const Ring& ring : expansion(d, number)) std::printf("%.10g,%.10g\n", ring.r, ring.displacement);

@@ -35,20 +35,6 @@ inline double energy(peridynamics::Body& body) {
   return t.kinetic + t.strain + t.fracture;
 }
 
-/// The energy that leapfrog conserves to the last digit where forces are linear: with v_{n-1/2} . v_{n+1/2}
-/// in place of v_n^2. The usual one swings about it, for each mode by (omega dt)^2 of its share.
-inline double leapfrog_energy(peridynamics::Body& body, const peridynamics::BodySetup& setup) {
-  const peridynamics::Observation& seen = body.observe(0);
-  const auto rows = static_cast<std::size_t>(body.layout().row_count);
-  double kicks = 0;
-  for (const std::vector<double>& force : seen.force_density) {
-    for (std::size_t i = 0; i < force.size(); ++i)
-      kicks += setup.lattice.volume(i / rows) * force[i] * force[i];
-  }
-  const peridynamics::Totals t = body.totals();
-  return t.kinetic + t.strain + t.fracture - kicks * setup.time_step * setup.time_step / (8 * setup.density);
-}
-
 /// Tells the body that a load gave it the state it is in, one that moves loose particles at `speed` (m/s).
 inline void allow_speed(peridynamics::Body& body, double speed) {
   peridynamics::Body::Saved saved = body.save();
