@@ -119,6 +119,10 @@ class Machine:
     cores_per_node: int
 
 
+def nodes_of(ranks, threads, cores_per_node):
+    return math.ceil(ranks / max(1, cores_per_node // threads))
+
+
 def core_rate(problem, row):
     """Particles (or vessels) that a core does in a second, from a measured run."""
     share = problem.busiest(row["ranks"])

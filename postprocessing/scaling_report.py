@@ -134,6 +134,7 @@ def draw_resource(axes, rows, ahead, fits, name):
         label_cores(axes)
     else:
         axes.set_xlim(whole_decades([row["p"] for row in rows]))
+        axes.xaxis.set_minor_formatter("")
     axes.legend(fontsize=7, frameon=False, loc="upper left")  # in the decade left free for it
 
 
@@ -157,7 +158,7 @@ def draw_comparison(axes, study, rows, ahead):
         axes.yaxis.set_major_formatter("{x:g}")
     else:
         axes.set_ylim(0, 1.15 * max(1, *(row[key] for row in rows + ahead)))
-    axes.legend(fontsize=7, frameon=False, loc="upper left" if study == "strong" else "lower left")
+    axes.legend(fontsize=7, frameon=False, loc="upper left" if study == "strong" else "best")
 
 
 def draw_study(path, study, rows, ahead, fits):

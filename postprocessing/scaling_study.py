@@ -28,12 +28,12 @@ import os
 import pathlib
 import re
 import shlex
-import statistics
-import subprocess
+import shutil
 import sys
 
-from performance_model import Machine, core_rate, problem_of, solve_seconds
+from performance_model import Machine, core_rate, nodes_of, problem_of, solve_seconds
 from scaling_report import write_report
+from scaling_runs import check_input, measured, read_machine, run_here, write_jobs
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
@@ -97,112 +97,10 @@ def plan_cases(options):
             for number, (study, (ranks, threads), size) in enumerate(cases, 1)]
 
 
-def overrides(plan, case):
-    return [word for text in (*plan["set"], *filter(None, [case["size"]])) for word in ("--set", text)]
-
-
-def check_input(plan):
-    """Every size, by the program itself, before anything is written."""
-    for size in dict.fromkeys(case["size"] for case in plan["cases"]):
-        command = [plan["program"], "check", plan["input"], *overrides(plan, {"size": size})]
-        result = subprocess.run(command, capture_output=True, text=True)
-        if result.returncode:
-            raise ValueError(result.stderr.strip().splitlines()[-1])
-
-
-def run_folders(plan, output, case):
-    return [output / "runs" / case["folder"] / str(repeat) for repeat in range(1, plan["repeat"] + 1)]
-
-
-def run_command(plan, case, folder):
-    return [plan["program"], "run", plan["input"], "-o", str(folder), "--quiet", *overrides(plan, case)]
-
-
-def launcher(ranks, threads):
-    """mpirun, with a core for every thread where there are enough."""
-    enough = ranks * threads <= len(os.sched_getaffinity(0))
-    binding = ["--map-by", f"slot:PE={threads}", "--bind-to", "core"] if enough else ["--bind-to", "none"]
-    root = ["--allow-run-as-root"] if os.geteuid() == 0 else []
-    return ["mpirun", "--oversubscribe", *root, *binding]
-
-
-def run_here(plan, output, start_with):
-    """Every case once, then every case again, so that what disturbs the machine for a while disturbs all alike."""
-    (output / "machine.txt").write_text(describe_machine(plan["program"]), encoding="utf-8")
-    for repeat in range(plan["repeat"]):
-        for case in plan["cases"]:
-            folder = run_folders(plan, output, case)[repeat]
-            start = start_with or launcher(case["ranks"], case["threads"])
-            print(f"{repeat + 1}/{plan['repeat']}  {case['folder']}  {case['size'] or ''}".rstrip(), flush=True)
-            status = subprocess.run([*start, "-n", str(case["ranks"]), *run_command(plan, case, folder)],
-                                    env={**os.environ, "OMP_NUM_THREADS": str(case["threads"])}).returncode
-            if status:
-                sys.exit(f"error: the run in {folder} ended with status {status}")
-
-
-def describe_machine(program):
-    english = {**os.environ, "LC_ALL": "C"}
-    return "".join(subprocess.run(command, capture_output=True, text=True, env=english, check=True).stdout
-                   for command in (["lscpu"], [program, "--version"]))
-
-
-def write_jobs(plan, output, slurm_options):
-    """A job script for each case, which runs all its repeats."""
-    for case in plan["cases"]:
-        cores = case["ranks"] * case["threads"]
-        per_task = f"--cpus-per-task={case['threads']}"
-        header = [f"--job-name={case['folder']}", f"--nodes={math.ceil(cores / plan['cores_per_node'])}", "--exclusive",
-                  f"--ntasks={case['ranks']}", per_task, f"--output={output / case['folder']}.log", *slurm_options]
-        program, machine = (shlex.quote(str(path)) for path in (plan["program"], output / "machine.txt"))
-        lines = ["#!/bin/bash", *(f"#SBATCH {option}" for option in header), "set -e",
-                 f"export OMP_NUM_THREADS={case['threads']}",
-                 f"{{ LC_ALL=C lscpu; {program} --version; }} > {machine}"]
-        for folder in run_folders(plan, output, case):
-            lines.append(shlex.join(["srun", "--cpu-bind=cores", per_task, *run_command(plan, case, folder)]))
-        (output / f"{case['folder']}.sbatch").write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
-def read_machine(path):
-    """What describe_machine wrote, in four entries."""
-    words = {"cpu": r"Model name:", "cores": r"CPU\(s\):", "program": "Rhexis", "built": r" +built"}
-    text = path.read_text(encoding="utf-8")
-    found = {name: re.search(rf"^{start} +(.*)$", text, re.MULTILINE) for name, start in words.items()}
-    return {name: match and match[1] for name, match in found.items()}
-
-
-def measured(plan, output, case):
-    """A row of medians over the finished runs of a case, and one of their records; (None, None) where none finished."""
-    paths = [folder / "run.json" for folder in run_folders(plan, output, case)]
-    records = [json.loads(path.read_text(encoding="utf-8")) for path in paths if path.exists()]
-    records = [record for record in records if record["status"] == "completed"]
-    if not records:
-        return None, None
-    costs = [record["performance"] for record in records]
-    results = records[0]["results"]
-
-    def median(key):
-        return None if costs[0][key] is None else statistics.median(cost[key] for cost in costs)
-
-    wall = median("wall_s")
-    nodes = round(3600 * costs[0]["node_hours"] / costs[0]["wall_s"])
-    cores = costs[0]["ranks"] * costs[0]["threads"]
-    vessels = results["network"]["vessels"]
-    row = {"study": case["study"], "size": case["size"], "ranks": costs[0]["ranks"], "threads": costs[0]["threads"],
-           "cores": cores, "nodes": nodes, "particles": results["particles"], "vessels": vessels,
-           "p": cores if case["study"] == "strong" else vessels or results["particles"],
-           "steps": results["steps"] or 1, "runs": len(records), "wall_s": wall,
-           "wall_min_s": min(cost["wall_s"] for cost in costs), "wall_max_s": max(cost["wall_s"] for cost in costs),
-           "solve_s": median("solve_s"), "insitu_s": median("insitu_s"), "output_s": median("output_s"),
-           "core_hours": wall * cores / 3600, "node_hours": wall * nodes / 3600, "flop": median("flop"),
-           "peak_rss_bytes": median("peak_rss_bytes")}
-    if row["p"] is None:
-        sys.exit("error: without particles or vessels a run has no size: only --strong")
-    return row, records[0]
-
-
 def compare_and_predict(rows, records, machine, beyond):
     """Adds speedup, efficiency and predicted time to the rows of a study over cores; returns rows for cores beyond."""
     first = min(rows, key=lambda row: row["cores"])
+    real = [row for row in rows if row["cores"] <= row["nodes"] * machine.cores_per_node]
     problem = problem_of(records[rows.index(first)])
     rate = core_rate(problem, first) if problem else None
     rest = first["wall_s"] - first["solve_s"]  # start, output, pictures: taken as the same on any cores
@@ -218,10 +116,13 @@ def compare_and_predict(rows, records, machine, beyond):
             print(f"warning: weak scaling, {row['size']}: the size a core is {growth:.2f} times the first one's", file=sys.stderr)
         row["speedup"] = first["cores"] * first["wall_s"] / row["wall_s"] if strong else None
         row["efficiency"] = row["speedup"] / row["cores"] if strong else first["wall_s"] / row["wall_s"]
-        if rate and row is not first:
+        if row not in real:
+            print(f"warning: {row['ranks']}x{row['threads']} shares {row['nodes'] * machine.cores_per_node} cores: "
+                  "its time is not that of so many cores", file=sys.stderr)
+        elif rate and row is not first:
             row["predicted_wall_s"] = predicted(problem_of(record), row["ranks"], row["threads"], row["steps"])
             row["prediction_error"] = row["predicted_wall_s"] / row["wall_s"] - 1
-    last = max(rows, key=lambda row: row["cores"])
+    last = max(real or rows, key=lambda row: row["cores"])
     ahead = []
     for cores in beyond:
         if not rate or cores <= last["cores"] or cores % last["threads"]:
@@ -232,7 +133,7 @@ def compare_and_predict(rows, records, machine, beyond):
             break
         speedup = first["cores"] * first["wall_s"] / wall if strong else None
         ahead.append({"study": first["study"], "ranks": cores // last["threads"], "threads": last["threads"], "cores": cores,
-                      "nodes": math.ceil(cores / machine.cores_per_node), "runs": 0,
+                      "nodes": nodes_of(cores // last["threads"], last["threads"], machine.cores_per_node), "runs": 0,
                       "p": cores if strong else first["p"] * cores / first["cores"], "predicted_wall_s": wall,
                       "core_hours": wall * cores / 3600, "speedup": speedup,
                       "efficiency": speedup / cores if strong else first["wall_s"] / wall})
@@ -291,6 +192,9 @@ def parse_arguments():
         parser.error(f"no file {options.input}")
     if options.input and not os.access(options.program, os.X_OK):
         parser.error(f"no program {options.program}: ./quickstart build, or --program")
+    starter = (options.launcher or ["mpirun"])[0]
+    if options.input and not options.slurm and not shutil.which(starter):
+        parser.error(f"no command {starter}")
     if options.slurm and (options.slurm / "study.json").exists():
         parser.error(f"{options.slurm} holds a study already: collect it, or choose another folder")
     return parser, options
@@ -310,9 +214,9 @@ def main():
             plan = {"input": str(options.input.resolve()), "program": str(options.program.resolve()), "set": options.set,
                     "repeat": options.repeat, "cores_per_node": cores_per_node, "cases": plan_cases(options)}
             check_input(plan)
-        except ValueError as problem:
+            output.mkdir(parents=True, exist_ok=True)
+        except (ValueError, OSError) as problem:
             parser.error(str(problem))
-        output.mkdir(parents=True, exist_ok=True)
         (output / "study.json").write_text(json.dumps(plan, indent=2) + "\n", encoding="utf-8")
         if options.slurm:
             write_jobs(plan, output, options.slurm_option)

@@ -24,7 +24,7 @@ SCRIPT = SOURCE / "postprocessing/scaling_study.py"
 sys.path.insert(0, str(SCRIPT.parent))
 
 import scaling_study
-from performance_model import Machine, Network, Wall, core_rate, fit_power_law, solve_seconds
+from performance_model import Machine, Network, Wall, core_rate, fit_power_law, nodes_of, solve_seconds
 
 # 550 columns x 16 rows, 20 steps.
 VESSEL = """\
@@ -108,6 +108,7 @@ class Model(unittest.TestCase):
         two = self.WALL.busiest(2)  # 5 of 10 blocks each; 3 rows of every column come from the other
         self.assertEqual((two.particles, two.messages, two.bytes), (548 * 80, 1, 548 * 3 * 12))
         self.assertIsNone(self.WALL.busiest(548 * 10 + 1))
+        self.assertEqual([nodes_of(*shape, 48) for shape in ((48, 1), (6, 32), (49, 1), (1, 96))], [1, 6, 2, 1])
 
     def test_measured_rate_gives_the_measured_time_back(self):
         for problem in (self.WALL, Network(1e6)):
@@ -207,6 +208,7 @@ class Study(unittest.TestCase):
             (["--collect", self.folder], "study.json"),
             ([self.folder / "none.toml"], "none.toml"),
             ([self.vessel, "--program", self.folder / "none"], "no program"),
+            ([self.vessel, "--launcher", "no_such_mpirun"], "no_such_mpirun"),
             ([self.vessel, "--layouts", "2"], "RANKSxTHREADS"),
             ([self.vessel, "--layouts", "0x1"], "RANKSxTHREADS"),
             ([self.vessel, "--repeat", "0"], "positive whole number"),
