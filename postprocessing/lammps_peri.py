@@ -163,6 +163,7 @@ def read_history(folder, wall):
     xy = np.array([[line.split()[1:] for line in lines] for lines in particles], dtype=float)
     reference = wall.positions[wall.ring(), :2]
     damage = np.loadtxt(folder / "damage.txt")[:, 1]
+    damage[0] = 0  # LAMMPS says 1: it counts families only after it has told the damage at step 0
     columns = {"time_s": step * wall.time_step, **ring_columns(xy - reference, reference),
                "kinetic_J": kinetic * wall.volume, "strain_J": strain * wall.volume, "max_damage": damage[step.astype(int)]}
     return columns, damage
