@@ -48,7 +48,7 @@ What still differs between Rhexis and LAMMPS matched:
 LAMMPS as is has also, with its lattice constant equal to the spacing:
 - less weight for bonds within half a spacing of the horizon (down to a half), with the same c: a softer wall;
 - repulsion between particles nearer than 0.9 of their first distance or 1.35 spacings, 15 times as stiff as a bond:
-  it acts before the rupture, since the wall gets thinner as it widens."""
+  it can act before the rupture, since the wall gets thinner as it widens."""
 
 
 def lammps():
@@ -101,9 +101,9 @@ def speed(options, program):
             "steps_per_s": {name: summary(values) for name, values in rates.items()}, "ratio": summary(ratios)}
 
 
-def first_time(damage, threshold, time_step):
-    """When the largest damage, given for every step, first exceeds 0 or reaches a threshold."""
-    hit = np.flatnonzero(damage >= threshold if threshold else damage > 0)
+def first_time(reached, time_step):
+    """When a condition, given for every step, first holds."""
+    hit = np.flatnonzero(reached)
     return float(hit[0] * time_step) if len(hit) else None
 
 
@@ -129,7 +129,8 @@ def physics(options, program):
         folder = options.output / name.lower().replace(" ", "_")
         lammps_peri.run(options.lammps, folder, short, record["results"]["steps"], lattice * short.spacing, options.cores, options.every)
         histories[name], damage = lammps_peri.read_history(folder, short)
-        events[name] = {"first_break_s": first_time(damage, 0, short.time_step), "onset_s": first_time(damage, RUPTURE_DAMAGE, short.time_step)}
+        events[name] = {"first_break_s": first_time(damage > 0, short.time_step),
+                        "onset_s": first_time(damage >= RUPTURE_DAMAGE, short.time_step)}
     for name, event in events.items():
         if event["onset_s"]:
             event["ring_mean_at_onset_m"] = float(np.interp(event["onset_s"], histories[name]["time_s"], histories[name]["ring_mean_m"]))
@@ -141,6 +142,15 @@ def deviations(histories, name, until):
     ours, theirs = histories[RHEXIS], histories[name]
     within = ours["time_s"] < until
     return {key: float(np.abs(theirs[key] - ours[key])[within].max() / ours[key][within].max()) for key in COLUMNS}
+
+
+def deviations_before_events(histories, events, name):
+    """The same before either code's first break, and before either's onset of rupture; where none, over all time."""
+    found = {}
+    for event in ("first_break_s", "onset_s"):
+        until = min(events[code][event] or histories[RHEXIS]["time_s"][-1] for code in (RHEXIS, name))
+        found[event] = {"until_s": float(until), **deviations(histories, name, until)}
+    return found
 
 
 def draw(histories, events, path):
@@ -175,7 +185,7 @@ def draw(histories, events, path):
     figure.savefig(path, dpi=150)
 
 
-def report(timing, events, differences, windows):
+def report(timing, events, differences):
     ms = lambda seconds: "-" if seconds is None else f"{1e3 * seconds:.4f}"
     print(f"Speed: {timing['particles']} particles, {timing['directed_bonds']} directed bonds, {timing['cores']} cores")
     print("| code | steps/s, median | range |\n| --- | --- | --- |")
@@ -188,9 +198,11 @@ def report(timing, events, differences, windows):
         print(f"| {name} | {ms(event['first_break_s'])} | {ms(event['onset_s'])} | {ms(event.get('ring_mean_at_onset_m'))} |")
     print("\n| largest difference from Rhexis | before (ms) | " + " | ".join(COLUMNS.values()) + " |")
     print("| --- | --- |" + " --- |" * len(COLUMNS))
-    for name, by_window in differences.items():
-        for window, values in by_window.items():
-            print(f"| {name} | {window}, {ms(windows[window])} | " + " | ".join(f"{value:.1e}" for value in values.values()) + " |")
+    words = {"first_break_s": "the first break", "onset_s": "rupture"}
+    for name, by_event in differences.items():
+        for event, values in by_event.items():
+            cells = " | ".join(f"{values[key]:.1e}" for key in COLUMNS)
+            print(f"| {name} | {words[event]}, {ms(values['until_s'])} | {cells} |")
     print("\n" + DIFFERENCES)
 
 
@@ -211,13 +223,10 @@ def main():
 
     timing = speed(options, program)
     histories, events = physics(options, program)
-    onsets = [event["onset_s"] for name, event in events.items() if name != AS_IS and event["onset_s"]]
-    windows = {"first break": events[RHEXIS]["first_break_s"], "rupture": min(onsets, default=histories[RHEXIS]["time_s"][-1])}
-    windows = {window: until for window, until in windows.items() if until}
-    differences = {name: {window: deviations(histories, name, until) for window, until in windows.items()} for name in LATTICE}
+    differences = {name: deviations_before_events(histories, events, name) for name in LATTICE}
 
     (options.output / "peers.json").write_text(json.dumps(
-        {"speed": timing, "length_mm": options.length, "events": events, "windows_s": windows, "differences": differences}, indent=2) + "\n")
+        {"speed": timing, "length_mm": options.length, "events": events, "differences": differences}, indent=2) + "\n")
     with open(options.output / "peers.csv", "w", encoding="utf-8") as file:
         curves = {f"{name.lower().replace(' ', '_')}_{key}": values for name, history in histories.items()
                   for key, values in history.items() if key != "time_s"}
@@ -225,7 +234,7 @@ def main():
         writer.writerow(["time_s", *curves])
         writer.writerows(zip(histories[RHEXIS]["time_s"], *curves.values()))
     draw(histories, events, options.output / "peers.png")
-    report(timing, events, differences, windows)
+    report(timing, events, differences)
     print(f"\n{options.output / 'peers.png'}")
 
 

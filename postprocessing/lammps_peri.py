@@ -76,7 +76,7 @@ def data_text(wall):
     lines = ["vessel", "", f"{len(wall.positions)} atoms", f"{HELD} atom types", ""]
     lines += [f"{low[k]:.9g} {high[k]:.9g} {axis}lo {axis}hi" for k, axis in enumerate("xyz")] + ["", "Atoms # peri", ""]
     for i, (kind, (x, y, z)) in enumerate(zip(wall.types(), wall.positions), start=1):
-        lines.append(f"{i} {kind} {wall.volume:.16g} {wall.density:.16g} {x:.16g} {y:.16g} {z:.16g}")
+        lines.append(f"{i} {kind} {wall.volume:.16g} {wall.density:.16g} {x:.17g} {y:.17g} {z:.17g}")
     return "\n".join(lines) + "\n"
 
 
