@@ -12,7 +12,7 @@ import subprocess
 
 import numpy as np
 
-INNER, LOADED, HELD = 1, 2, 3  # types of particles: neither, in the pressure layer, in the clamped ends
+FREE, LOADED, HELD = 1, 2, 3  # types of particles: neither, in the pressure layer, in the clamped ends
 
 
 @dataclasses.dataclass
@@ -48,7 +48,7 @@ class Wall:
         depth = np.hypot(self.positions[:, 0], self.positions[:, 1]) - self.inner_radius
         slack = 1e-9 * self.spacing
         loaded = (depth >= -slack) & (depth <= self.layer_thickness + slack)
-        return np.where(held, HELD, np.where(loaded, LOADED, INNER))
+        return np.where(held, HELD, np.where(loaded, LOADED, FREE))
 
 
 def wall_of(record, positions):

@@ -55,7 +55,7 @@ class Writer(unittest.TestCase):
         radius = np.hypot(*self.wall.positions[:, :2].T)
         loaded = types == lammps_peri.LOADED
         self.assertLessEqual(radius[loaded].max(), 1.85e-3 * (1 + 1e-9))
-        self.assertGreater(radius[types == lammps_peri.INNER].min(), 1.85e-3)
+        self.assertGreater(radius[types == lammps_peri.FREE].min(), 1.85e-3)
         self.assertEqual(self.wall.ring().sum(), 548)
 
     def test_input_has_material_and_load(self):
