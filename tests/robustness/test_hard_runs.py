@@ -97,6 +97,12 @@ class HardRuns(unittest.TestCase):
         self.assertTrue(self.record()["status"].startswith("failed: the run became unstable"))
         self.assert_readable()
 
+    def test_balance_after_the_first_step_of_a_ramp_is_no_blow_up(self):
+        # All the wall has then is what half a step has given it, ahead of the work.
+        run = self.rhexis("run", "load.schedule=ramp", "output.every_steps=1", "time.end=5 us")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertGreater(float(self.assert_readable()[1]["kinetic_J"]), 0)
+
     def test_quasi_static_start(self):
         run = self.rhexis("run", "load.schedule=ramp", "load.pressure=400 kPa", "load.ramp_time=4 ms",
                           "start.equilibrium_pressure=50 kPa")
