@@ -21,11 +21,9 @@ import subprocess
 import sys
 import tempfile
 
+import table_plot  # before pyplot: settles how matplotlib draws
+
 import h5py
-import matplotlib
-
-matplotlib.use("Agg")  # no display needed
-
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -118,7 +116,7 @@ def physics(options, program):
 
     with tempfile.TemporaryDirectory(prefix="rhexis_peers_") as folder:
         record = rhexis(program, folder, options.cores, "output.fields=[\"displacement\"]", *overrides)
-        table = np.genfromtxt(pathlib.Path(folder) / "history.csv", delimiter=",", names=True)
+        table = table_plot.read(pathlib.Path(folder) / "history.csv")
         with h5py.File(pathlib.Path(folder) / "particles.h5") as file:
             displacements = np.array([file[f"displacement/{int(step):06d}"][:][ring, :2] for step in table["step"]], dtype=float)
     histories[RHEXIS] = {"time_s": table["time_s"], **lammps_peri.ring_columns(displacements, short.positions[ring, :2]),
