@@ -28,16 +28,15 @@ HWY_INLINE void sum_extensions(const Law law, const BlockView<Real>& block, Exte
     for (const BondConstants<Real>& bond : block.bonds) {
       std::uint16_t& word = *words++;
       if (word == 0) continue;
-      const auto present = detail::lanes_of(d, word, lane);
       const V t = ends.deformed(d, bond).t;
       const V s = law.stretch(d, t, law.force_factor(d, t));
       const V extension = hn::Mul(s, hn::Set(d, bond.energy_weight));
-      const auto broken = hn::And(present, test.fails(d, law, bond, t));
-      if (HWY_UNLIKELY(!hn::AllFalse(d, broken))) {
-        sums.broken += detail::clear(d, broken, lane, word);
-        lost = hn::Add(lost, hn::IfThenElseZero(broken, extension));
+      const std::uint16_t broken = detail::clear(d, test.fails(d, law, bond, t), lane, word);
+      if (HWY_UNLIKELY(broken != 0)) {
+        sums.broken += std::popcount(broken);
+        lost = hn::Add(lost, hn::IfThenElseZero(detail::lanes_of(d, broken, lane), extension));
       }
-      intact = hn::Add(intact, hn::IfThenElseZero(hn::AndNot(broken, present), extension));
+      intact = hn::Add(intact, hn::IfThenElseZero(detail::lanes_of(d, word, lane), extension));
     }
     hn::Store(intact, d, sums.intact + lane);
     hn::Store(lost, d, sums.lost + lane);

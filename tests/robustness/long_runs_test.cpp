@@ -36,7 +36,8 @@ TEST_P(LongRun, AMillionStepsKeepTheEnergy) {
   for (int i = 0; i < 960000; ++i) body->advance(0, 0);
   const double drift = mean() / start - 1;
   std::printf("drift over 1e6 steps: %.1e\n", drift);
-  EXPECT_LT(std::abs(drift), 1e-5);
+  // Displacements rounded to single precision let the energy of so few particles walk at random by 1e-5.
+  EXPECT_LT(std::abs(drift), doubles() ? 1e-5 : 5e-5);
 }
 
 TEST_P(LongRun, LooseParticlesFlyStraightForEver) {

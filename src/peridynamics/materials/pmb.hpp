@@ -69,8 +69,8 @@ struct Pmb {
     } else {
       const V r = hn::ApproximateReciprocalSqrt(a);
       const V g = hn::Sub(one, r);
-      // residual e = 1 - a r^2 = g (1 + r) - t r^2;  1/sqrt(a) = r (1 + e/2 + 3/8 e^2 + ...)
-      const V e = hn::MulSub(g, hn::Add(one, r), hn::Mul(t, hn::Mul(r, r)));
+      // residual e = 1 - a r^2 = (1 - r^2) - t r^2, fused;  1/sqrt(a) = r (1 + e/2 + 3/8 e^2 + ...)
+      const V e = hn::NegMulAdd(t, hn::Mul(r, r), hn::NegMulAdd(r, r, one));
       const V series = hn::MulAdd(e, hn::Set(d, Real(0.375)), hn::Set(d, Real(0.5)));
       return hn::NegMulAdd(hn::Mul(e, r), series, g);
     }
