@@ -1,5 +1,6 @@
 #include "peridynamics/bond_family.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -97,14 +98,16 @@ std::int64_t largest_family(const Lattice& lattice, const BondFamilies& families
 }
 
 double stable_time_step(const Lattice& lattice, const BondFamilies& families, double bond_constant,
-                        double density) {
-  double stiffest = 0;  // sum_j V_j / |xi|, m2
+                        double density, double critical_stretch) {
+  double stiffest = 0;  // lambda_i / c, m2
   for (std::size_t c = 0; c < lattice.section.size(); ++c) {
-    double sum = 0;
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (const Bond& bond : families.of(c)) {
-      sum += bond.weight * lattice.volume(bond.other) / (bond.length * lattice.spacing);
+      const Eigen::Vector3d n = Eigen::Vector3d(bond.xi[0], bond.xi[1], bond.xi[2]) / bond.length;
+      sum += bond.weight * lattice.volume(bond.other) / (bond.length * lattice.spacing) * n * n.transpose();
     }
-    stiffest = std::max(stiffest, sum);
+    const double largest = sum.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
+    stiffest = std::max(stiffest, std::min((1 + critical_stretch) * largest, sum.trace()));
   }
   return std::sqrt(2 * density / (bond_constant * stiffest));
 }

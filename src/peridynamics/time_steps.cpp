@@ -19,7 +19,8 @@ double stable_time_step(const BodySetup& setup) {
                                     ? WallFactors{}
                                     : setup.heterogeneity.largest(lattice);
     const double hardening = law.stiffness_ratio(setup.critical_stretch * largest.critical_stretch);
-    const double of_bonds = stable_time_step(lattice, setup.families, setup.bond_constant, setup.density) /
+    const double of_bonds = stable_time_step(lattice, setup.families, setup.bond_constant, setup.density,
+                                             setup.critical_stretch) /
                             std::sqrt(largest.stiffness * hardening);
     if constexpr (!Law::state_based) {
       return of_bonds;

@@ -83,7 +83,7 @@ class HardRuns(unittest.TestCase):
         self.assertEqual(refused.returncode, 2)
         self.assertIn("time.step", refused.stderr)
 
-        # The computed step is a bound, half of the true limit: a little beyond it, nothing happens.
+        # The computed step is a bound, below the true limit: a little beyond it, nothing happens.
         forced = self.rhexis("run", f"time.step={1.05 * stable} us", "time.allow_unstable=true")
         self.assertEqual(forced.returncode, 0, forced.stderr)
         self.assertLess(abs(self.record()["results"]["energy_drift"]), 0.05)

@@ -11,10 +11,11 @@ namespace {
 struct Kind {
   const char* cross_section;
   const char* ends;
+  double critical_stretch;  ///< which the stable step allows for
 };
 
 void PrintTo(const Kind& k, std::ostream* out) {
-  *out << k.cross_section << ' ' << k.ends;
+  *out << k.cross_section << ' ' << k.ends << ' ' << k.critical_stretch;
 }
 
 class TimeStep : public testing::TestWithParam<Kind> {
@@ -22,12 +23,14 @@ class TimeStep : public testing::TestWithParam<Kind> {
   Parameters tube() const {
     Parameters p = test::small_tube(GetParam().cross_section, false);
     p.ends = GetParam().ends;
+    p.critical_stretch = GetParam().critical_stretch;
     return p;
   }
 };
 INSTANTIATE_TEST_SUITE_P(Tubes, TimeStep,
-                         testing::Values(Kind{"lattice", "free"}, Kind{"polar", "free"},
-                                         Kind{"lattice", "axial_periodic"}, Kind{"polar", "sliding"}));
+                         testing::Values(Kind{"lattice", "free", 10}, Kind{"polar", "free", 0.25},
+                                         Kind{"lattice", "axial_periodic", 0.25},
+                                         Kind{"polar", "sliding", 10}));
 
 TEST_P(TimeStep, JustBelowTheStableOneIsStable) {
   const auto body = make_body(test::setup_at(tube(), 0.95), test::self());
@@ -35,20 +38,20 @@ TEST_P(TimeStep, JustBelowTheStableOneIsStable) {
   const double start = test::energy(*body);
   for (int i = 1; i <= 20000; ++i) {
     ASSERT_FALSE(body->advance(0, 0).unstable) << i;
-    // Energy at whole steps swings by (omega dt)^2 about a constant.
+    // Energy at whole steps is below a constant by (omega dt)^2/4 of what each mode has.
     if (i % 500 != 0) continue;
-    ASSERT_NEAR(test::energy(*body) / start, 1, 0.05) << i;
+    ASSERT_NEAR(test::energy(*body) / start, 1, 0.1) << i;
   }
 }
 
 TEST_P(TimeStep, InstabilityBeginsAtTheLinearLimit) {
-  // 1.9 to 2.1 times the computed step: a bound for all directions at once, and for neighbours that all move
-  // against each other.
+  // 1.9 to 2.1 times the computed step of bonds that hold for ever, a bound for all directions at once and
+  // for neighbours that all move against each other; 1.2 to 1.4 times that of bonds that break at 0.25.
   const double ratio =
       linear_time_step_limit(test::setup_at(tube(), 1)) / test::stable_step_of(test::setup_at(tube(), 1));
   std::printf("%s %s: limit %.4f times the stable step\n", GetParam().cross_section, GetParam().ends, ratio);
-  EXPECT_GT(ratio, 1.5);
-  EXPECT_LT(ratio, 2.5);
+  EXPECT_GT(ratio, 1.1);
+  EXPECT_LT(ratio, GetParam().critical_stretch > 1 ? 2.5 : 1.5);
   const auto growth = [&](double share) {
     const auto body = make_body(test::setup_at(tube(), share), test::self());
     body->set_state(test::sample(*body,
