@@ -1,12 +1,16 @@
 #!/usr/bin/python3
-"""Speed against error: work-precision diagram and table of the discretisations there are, measured here and now.
+"""Speed against error: work-precision diagrams and tables of the discretisations there are, measured here and now.
 
     ./quickstart test     # builds what this runs
-    postprocessing/speed_against_error.py [--build build/release] [--repeat 3] [-o results/speed_against_error]
+    postprocessing/speed_against_error.py [--build build/release] [--repeat 3] [--skip elasticity|onsets] [-o results/speed_against_error]
 
-Error: relative L2 error of the static radial displacement against Lame's plane-strain solution. Work: core-seconds of
-solving for each millisecond of the paper's vessel (10 mm), from runs of some hundred steps on one thread; the cases take
+Elasticity. Error: relative L2 error of the static radial displacement against Lame's plane-strain solution. Work: core-seconds
+of solving for each millisecond of the paper's vessel (10 mm), from runs of some hundred steps on one thread; the cases take
 turns, and the median counts. The paper's step is a quarter of its stable one (500 ns), ours is 0.8.
+
+Onset. Pressure at which a scattered wall (1.5 mm, endless) begins to rupture on a ramp, with the horizon held at 350 um, against ours
+at REFERENCE spacings across the wall; as the pressure rises in proportion to time, the error of the moment is the same. Work:
+core-seconds of solving up to it, each case once, on one thread: some twenty minutes in all.
 """
 
 import argparse
@@ -24,10 +28,9 @@ matplotlib.use("Agg")  # no display needed
 
 import matplotlib.pyplot as plt
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from onset import OURS, PAPER, ROOT, onset, settings
+
 WALL = 0.5e-3  # m
-PAPER = ("lattice", "none", "paper")
-OURS = ("polar", "calibrated", "nonlocal")
 SERIES = {  # name: scheme, horizon in spacings, share of the stable step, bonds, spacings across the wall
     "the paper's scheme": (PAPER, 3.5, 0.25, "single", (3, 5, 7, 10, 14)),
     "the same, step 0.8": (PAPER, 3.5, 0.8, "single", (5, 10)),
@@ -37,6 +40,18 @@ SERIES = {  # name: scheme, horizon in spacings, share of the stable step, bonds
     "ours, double bonds": (OURS, 3.5, 0.8, "double", (5,)),
     "ours, horizon 2.5": (OURS, 2.5, 0.8, "single", (5, 10)),
     "ours, horizon 5": (OURS, 5, 0.8, "single", (5, 10)),
+}
+REFERENCE = 11  # spacings across the wall: the horizon may be 8 of them
+ONSETS = {  # name: scheme, share of the stable step, spacings across the wall, what else is set
+    "the paper's scheme": (PAPER, 0.25, (5, 7), ()),
+    "the same, step 0.8": (PAPER, 0.8, (5, 7, 10), ()),
+    "the same, lattice shifted": (PAPER, 0.8, (5, 7), ("discretisation.lattice_shift=[0.0, 0.0]",)),
+    "ours": (OURS, 0.8, (4, 5, 7, 10), ()),
+    "ours, step 0.4": (OURS, 0.4, (5,), ()),
+    "ours, step 0.2": (OURS, 0.2, (5,), ()),
+    "ours, double bonds": (OURS, 0.8, (5,), ("discretisation.bond_precision=double",)),
+    "ours, turned by 1 deg": (OURS, 0.8, (5, 7), ("discretisation.rotation=1 deg",)),
+    "ours, turned by 2 deg": (OURS, 0.8, (5, 7), ("discretisation.rotation=2 deg",)),
 }
 
 
@@ -55,27 +70,25 @@ def work(build, scheme, ratio, share, bonds, across):
         for override in ("insitu.enabled=false", "output.fields=[]", "output.every_steps=1000000", f"time.end={end!r} s",
                          "load.ramp_time=2.25 ms", "time.step=auto", f"time.step_fraction={share}",
                          f"discretisation.spacing={WALL / across!r} m", "discretisation.horizon=auto",
-                         f"discretisation.horizon_ratio={ratio}", f"discretisation.cross_section={scheme[0]}",
-                         f"discretisation.surface_correction={scheme[1]}", f"load.layer={scheme[2]}",
-                         f"discretisation.bond_precision={bonds}"):
+                         f"discretisation.horizon_ratio={ratio}", *settings(scheme), f"discretisation.bond_precision={bonds}"):
             command += ["--set", override]
         subprocess.run(command, check=True, env={**os.environ, "OMP_NUM_THREADS": "1"})
         record = json.loads((pathlib.Path(folder) / "run.json").read_text())
     return record["performance"]["solve_s"] / (record["results"]["simulated_s"] * 1e3)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
-    parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/speed_against_error")
-    options = parser.parse_args()
-    build = options.build.resolve()
-    options.output.mkdir(parents=True, exist_ok=True)
+def report(path, header, rows):
+    with open(path, "w", encoding="utf-8") as file:
+        csv.writer(file).writerows([header, *rows])
+    for row in (header, ["---"] * len(header), *rows):
+        print("| " + " | ".join(map(str, row)) + " |")
+
+
+def elasticity(build, repeat, output):
     cases = [(name, scheme, ratio, share, bonds, n) for name, (scheme, ratio, share, bonds, across) in SERIES.items() for n in across]
     errors = {case: error(build, case[1], case[2], case[5]) for case in cases}
     times = {case: [] for case in cases}
-    for _ in range(options.repeat):
+    for _ in range(repeat):
         for case in cases:
             times[case].append(work(build, *case[1:]))
     cost = {case: statistics.median(values) for case, values in times.items()}
@@ -87,11 +100,8 @@ def main():
         no_worse = [cost[other] for other in ours if errors[other] <= errors[case]]
         rows.append([case[0], case[5], f"{1e6 * WALL / case[5]:.0f}", f"{100 * errors[case]:.2f}", f"{cost[case]:.3g}",
                      f"{min(times[case]):.3g}-{max(times[case]):.3g}", f"{cost[case] / min(no_worse):.3g}" if no_worse else "-"])
-    header = ["scheme", "across the wall", "spacing (um)", "error (%)", "core-s per ms", "range", "over ours at no larger error"]
-    with open(options.output / "table.csv", "w", encoding="utf-8") as file:
-        csv.writer(file).writerows([header, *rows])
-    for row in (header, ["---"] * len(header), *rows):
-        print("| " + " | ".join(map(str, row)) + " |")
+    report(output / "table.csv",
+           ["scheme", "across the wall", "spacing (um)", "error (%)", "core-s per ms", "range", "over ours at no larger error"], rows)
 
     figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
     for name in SERIES:
@@ -100,8 +110,56 @@ def main():
     axes.set(xlabel="core-seconds per simulated millisecond", ylabel="error against Lame (%)")
     axes.grid(True, which="both", alpha=0.3)
     axes.legend(fontsize=8)
-    figure.savefig(options.output / "work_precision.png", dpi=150)
-    print(options.output / "work_precision.png")
+    figure.savefig(output / "work_precision.png", dpi=150)
+    print(output / "work_precision.png")
+
+
+def onsets(build, output):
+    os.environ["OMP_NUM_THREADS"] = "1"
+
+    def found(scheme, share, across, more):
+        return onset(build, *settings(scheme), "vessel.length=1.5 mm", "discretisation.horizon=350 um",
+                     f"discretisation.spacing={WALL / across!r} m", f"time.step_fraction={share}", *more)
+
+    cases = {(name, n): found(scheme, share, n, more) for name, (scheme, share, across, more) in ONSETS.items() for n in across}
+    reference = found(OURS, 0.8, REFERENCE, ())
+    errors = {case: 100 * (at["kPa"] / reference["kPa"] - 1) for case, at in cases.items()}
+    rows = [[name, n, f"{1e6 * WALL / n:.0f}", f"{at['kPa']:.2f}", f"{at['step_kPa']:.2f}", f"{errors[name, n]:+.2f}", f"{at['core_s']:.3g}"]
+            for (name, n), at in cases.items()]
+    rows.append(["reference", REFERENCE, f"{1e6 * WALL / REFERENCE:.0f}", f"{reference['kPa']:.2f}", f"{reference['step_kPa']:.2f}", "-",
+                 f"{reference['core_s']:.3g}"])
+    report(output / "onset.csv", ["scheme", "across the wall", "spacing (um)", "onset (kPa)", "a step (kPa)", "error (%)", "core-s to onset"], rows)
+
+    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    markers = {4: "v", 5: "o", 7: "s", 10: "^"}
+    for name in ONSETS:
+        of_series = [case for case in cases if case[0] == name]
+        line, = axes.loglog([cases[c]["core_s"] for c in of_series], [abs(errors[c]) for c in of_series], label=name)
+        for case in of_series:
+            axes.loglog(cases[case]["core_s"], abs(errors[case]), markers[case[1]], color=line.get_color())
+    axes.axhline(100 * reference["step_kPa"] / reference["kPa"], color="k", ls=":", lw=1, label="one time step")
+    axes.set(xlabel="core-seconds up to the onset", ylabel="error of the onset of rupture (%)")
+    axes.grid(True, which="both", alpha=0.3)
+    figure.legend(*axes.get_legend_handles_labels(), fontsize=8, loc="outside right upper")
+    shapes = [axes.plot([], [], marker, color="grey", label=f"{1e6 * WALL / n:.0f} um")[0] for n, marker in markers.items()]
+    axes.legend(handles=shapes, fontsize=8, title="spacing", title_fontsize=8)
+    figure.savefig(output / "onset_work_precision.png", dpi=150)
+    print(output / "onset_work_precision.png")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/release")
+    parser.add_argument("--repeat", type=int, default=3, help="of the work of elasticity")
+    parser.add_argument("--skip", choices=("elasticity", "onsets"))
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/speed_against_error")
+    options = parser.parse_args()
+    build = options.build.resolve()
+    options.output.mkdir(parents=True, exist_ok=True)
+    if options.skip != "elasticity":
+        elasticity(build, options.repeat, options.output)
+    if options.skip != "onsets":
+        onsets(build, options.output)
 
 
 if __name__ == "__main__":
