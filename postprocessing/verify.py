@@ -208,7 +208,7 @@ class Suite:
         self.report.table(["across", "wall", "growth", "off a line (rms)", "speed (m/s)", "over Rayleigh's", "fastest in 50 us (m/s)",
                            "over Rayleigh's"], rows)
         self.report.lines += [f"Rayleigh waves: {rayleigh:.2f} m/s; +-: one spacing of length.", ""]
-        self.report.plot("crack_speed", curves, "time since 4 mm (ms)", "ruptured length (mm)", logarithmic=False)
+        self.report.plot("crack_speed", curves, "time since it was 4 mm long (ms)", "ruptured length (mm)", logarithmic=False)
 
     def rupture(self):
         self.report.section("Onset of rupture", "Pressure at which damage first reaches 0.2, kPa, on a linear ramp to 320 kPa in 2.4 ms: "
