@@ -42,7 +42,6 @@ struct BondConstants {
 /// One block of one column: what the bonds read and the bits they may clear.
 template <class Real>
 struct BlockView {
-  int rows;          ///< of the block that there are
   const Real* u[3];  ///< padded displacement, at the block's first row
   std::span<const BondConstants<Real>> bonds;
   std::uint16_t* intact;             ///< one word per bond, bit k: bond of row k exists and is unbroken
@@ -173,55 +172,6 @@ HWY_INLINE std::uint16_t clear(D d, hn::Mask<D> fail, std::size_t lane, std::uin
   return broken;
 }
 
-/// sum_block's rows from `lane` on, as many as `d` has lanes.
-template <bool observing, bool heterogeneous, bool wrapped, class D, class Law, class Real>
-HWY_INLINE void sum_lanes(D d, const Law law, const BlockView<Real>& block, std::size_t lane,
-                          BlockSums<Real>& sums) {
-  using V = hn::Vec<D>;
-  const Ends<wrapped, D, Real> ends(d, block, lane);
-  const BreakingTest<heterogeneous, D, Real> test(d, block, lane);
-  V half_stiffness = hn::Zero(d), pressure = hn::Zero(d);
-  if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
-  if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
-  V fx = hn::Zero(d), fy = hn::Zero(d), fz = hn::Zero(d), energy = hn::Zero(d);
-  std::uint16_t* intact = block.intact;
-  for (const BondConstants<Real>& bond : block.bonds) {
-    std::uint16_t& word = *intact++;
-    if (word == 0) continue;
-    [[maybe_unused]] const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
-    const auto [y_x, y_y, y_z, t] = ends.deformed(d, bond);
-    const std::uint16_t broken = clear(d, test.fails(d, law, bond, t), lane, word);
-    if (HWY_UNLIKELY(broken != 0)) sums.broken += std::popcount(broken);
-    const auto pulling = lanes_of(d, word, lane);
-    const V one = hn::Set(d, Real{1});
-    const V g = law.force_factor(d, t);
-    V stiffness = one, pull = g;
-    if constexpr (heterogeneous) {
-      stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + there));
-      pull = hn::Mul(g, stiffness);
-    }
-    if constexpr (Law::state_based) {
-      const V both = hn::Add(pressure, hn::LoadU(d, block.pressure + there));
-      pull = hn::MulAdd(both, hn::Sub(one, g), pull);  // 1 - g = 1 / (1 + s)
-    }
-    const V k = hn::IfThenElseZero(pulling, hn::Mul(pull, hn::Set(d, bond.weight)));
-    fx = hn::MulAdd(k, y_x, fx);
-    fy = hn::MulAdd(k, y_y, fy);
-    fz = hn::MulAdd(k, y_z, fz);
-    if constexpr (observing) {
-      V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
-      if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
-      energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
-      const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
-      sums.crushed += static_cast<int>(hn::CountTrue(d, crushed));
-    }
-  }
-  hn::Store(fx, d, sums.force[0] + lane);
-  hn::Store(fy, d, sums.force[1] + lane);
-  hn::Store(fz, d, sums.force[2] + lane);
-  if constexpr (observing) hn::Store(hn::Mul(energy, hn::Set(d, Real(0.5))), d, sums.energy + lane);
-}
-
 }  // namespace detail
 
 /// Breaks what is stretched too far, then adds the forces of what is left. With `observing` also the strain
@@ -233,16 +183,51 @@ template <bool observing, bool heterogeneous, bool wrapped, class Law, class Rea
 HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, BlockSums<Real>& sums) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::CappedTag<Real, parallel::block_rows> d;
-  const auto rows = static_cast<std::size_t>(block.rows);
-  if constexpr (hn::MaxLanes(decltype(d)()) == parallel::block_rows) {
-    // The end of a vessel: processors do more of half as wide vectors at a time.
-    const hn::Half<decltype(d)> half;
-    if (rows <= hn::Lanes(half)) {
-      return detail::sum_lanes<observing, heterogeneous, wrapped>(half, law, block, 0, sums);
+  using V = hn::Vec<decltype(d)>;
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
+    const detail::Ends<wrapped, decltype(d), Real> ends(d, block, lane);
+    const detail::BreakingTest<heterogeneous, decltype(d), Real> test(d, block, lane);
+    V half_stiffness = hn::Zero(d), pressure = hn::Zero(d);
+    if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
+    if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
+    V fx = hn::Zero(d), fy = hn::Zero(d), fz = hn::Zero(d), energy = hn::Zero(d);
+    std::uint16_t* intact = block.intact;
+    for (const BondConstants<Real>& bond : block.bonds) {
+      std::uint16_t& word = *intact++;
+      if (word == 0) continue;
+      [[maybe_unused]] const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
+      const auto [y_x, y_y, y_z, t] = ends.deformed(d, bond);
+      const std::uint16_t broken = detail::clear(d, test.fails(d, law, bond, t), lane, word);
+      if (HWY_UNLIKELY(broken != 0)) sums.broken += std::popcount(broken);
+      const auto pulling = detail::lanes_of(d, word, lane);
+      const V one = hn::Set(d, Real{1});
+      const V g = law.force_factor(d, t);
+      V stiffness = one, pull = g;
+      if constexpr (heterogeneous) {
+        stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + there));
+        pull = hn::Mul(g, stiffness);
+      }
+      if constexpr (Law::state_based) {
+        const V both = hn::Add(pressure, hn::LoadU(d, block.pressure + there));
+        pull = hn::MulAdd(both, hn::Sub(one, g), pull);  // 1 - g = 1 / (1 + s)
+      }
+      const V k = hn::IfThenElseZero(pulling, hn::Mul(pull, hn::Set(d, bond.weight)));
+      fx = hn::MulAdd(k, y_x, fx);
+      fy = hn::MulAdd(k, y_y, fy);
+      fz = hn::MulAdd(k, y_z, fz);
+      if constexpr (observing) {
+        V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
+        if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
+        energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
+        const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
+        sums.crushed += static_cast<int>(hn::CountTrue(d, crushed));
+      }
     }
+    hn::Store(fx, d, sums.force[0] + lane);
+    hn::Store(fy, d, sums.force[1] + lane);
+    hn::Store(fz, d, sums.force[2] + lane);
+    if constexpr (observing) hn::Store(hn::Mul(energy, hn::Set(d, Real(0.5))), d, sums.energy + lane);
   }
-  for (std::size_t lane = 0; lane < rows; lane += hn::Lanes(d))
-    detail::sum_lanes<observing, heterogeneous, wrapped>(d, law, block, lane, sums);
 }
 
 }  // namespace rhexis::peridynamics

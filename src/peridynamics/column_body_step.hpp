@@ -9,8 +9,7 @@ template <class Law, class Real>
 BlockView<Real> ColumnBody<Law, Real>::view(Unit unit) {
   const std::size_t place = padded_place(unit);
   const auto u = current();
-  BlockView<Real> block{domain_.rows_in(unit.block),
-                        {u[0] + place, u[1] + place, u[2] + place},
+  BlockView<Real> block{{u[0] + place, u[1] + place, u[2] + place},
                         bonds_of(unit),
                         intact_.data() + first_word(unit),
                         static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
