@@ -154,7 +154,7 @@ TEST_P(Precision, EnergyIsConservedWhileItVibrates) {
   p.bond_precision = doubles() ? "double" : "single";
   p.ends = "free";
   BodySetup setup = test::setup_of(p, 1e-7);
-  setup.time_step = 0.05 * test::stable_step_of(setup);
+  setup.time_step = 0.03 * test::stable_step_of(setup);
   const auto body = make_body(std::move(setup), test::self());
   body->set_state(test::sample(*body,
                                [](auto x) {
@@ -175,7 +175,7 @@ TEST_P(Precision, WorkOfThePressureBecomesEnergy) {
   Parameters p = test::paper_vessel(1e-3);
   p.bond_precision = doubles() ? "double" : "single";
   BodySetup setup = test::setup_of(p, 1e-7);
-  setup.time_step = 0.05 * test::stable_step_of(setup);
+  setup.time_step = 0.03 * test::stable_step_of(setup);
   const auto body = make_body(std::move(setup), test::self());
   for (int i = 0; i < 500; ++i) body->advance(100.0 * i, 100.0 * (i + 1));
   body->observe(100.0 * 500);
