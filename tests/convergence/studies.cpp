@@ -311,7 +311,7 @@ std::vector<double> energy_drift(const Discretisation& d, double amplitude, doub
 
 std::vector<Ring> expansion(const Discretisation& d, double pressure) {
   const Parameters p = vessel(d);
-  const auto body = make_body(test::setup_of(p, 0.9 * stable_step(d)), test::self());
+  const auto body = make_body(test::setup_of(p, 0.6 * stable_step(d)), test::self());
   test::bring_to_rest(*body, pressure, static_cast<int>(800 * d.across));
   const PointLayout& l = body->layout();
   std::map<long, Ring> rings;
