@@ -21,7 +21,7 @@ TEST_P(Scales, AnswerDoesNotDependOnTheUnitOfLength) {
       *length *= scale;
     p.critical_stretch = 0.1;
     const auto body = make_body(test::setup_at(p, 0.8), test::self());
-    for (int i = 0; i < 40; ++i) body->advance(2e6, 2e6);
+    for (int i = 0; i < 25; ++i) body->advance(2e6, 2e6);
     body->observe(2e6);
     const Totals t = body->totals();
     EXPECT_GT(t.broken_bonds, 0) << "the test should tear something";
