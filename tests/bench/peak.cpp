@@ -123,19 +123,29 @@ double memory_rate(int threads) {
   return best;
 }
 
-double disk_rate(const std::filesystem::path& folder, std::size_t bytes) {
+PlainFile::PlainFile(const std::filesystem::path& folder, std::size_t bytes) : bytes_(bytes) {
   const std::string path = (folder / "yardstick").string();
-  const std::vector<char> data(bytes, 'x');
-  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (file < 0) throw std::runtime_error(path + ": cannot create the file");
-  unlink(path.c_str());
-  const bool reserved = posix_fallocate(file, 0, static_cast<off_t>(bytes)) == 0;
+  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (file_ < 0) throw std::runtime_error(path + ": cannot create the file");
+  unlink(path.c_str());  // gone when closed, however the program ends
+  rate();
+}
+
+PlainFile::~PlainFile() {
+  close(file_);
+}
+
+double PlainFile::rate() {
+  const std::vector<char> part(std::min(bytes_, std::size_t{1} << 20), 'x');
+  bool good = true;
   const double start = wall_time();
-  const bool written = write(file, data.data(), bytes) == static_cast<ssize_t>(bytes) && fsync(file) == 0;
-  const double seconds = wall_time() - start;
-  close(file);
-  if (!reserved || !written) throw std::runtime_error(path + ": cannot write the file");
-  return static_cast<double>(bytes) / seconds;
+  for (std::size_t done = 0; good && done < bytes_; done += part.size()) {
+    const std::size_t count = std::min(part.size(), bytes_ - done);
+    good = pwrite(file_, part.data(), count, static_cast<off_t>(done)) == static_cast<ssize_t>(count);
+  }
+  good = good && fsync(file_) == 0;
+  if (!good) throw std::runtime_error("cannot write a file to compare with");
+  return static_cast<double>(bytes_) / (wall_time() - start);
 }
 
 }  // namespace rhexis::bench

@@ -24,8 +24,19 @@ double load_rate(int threads, int level);
 /// B/s of STREAM's triad, a = b + s c, 24 B an element, in arrays larger than the last cache.
 double memory_rate(int threads);
 
-/// B/s of writing as many bytes to a new file in `folder` whose space is reserved, and waiting until they are
-/// on disk: what the output of a run does, without HDF5.
-double disk_rate(const std::filesystem::path& folder, std::size_t bytes);
+/// A file without a name in `folder`, to be written again and again.
+class PlainFile {
+ public:
+  PlainFile(const std::filesystem::path& folder, std::size_t bytes);
+  ~PlainFile();
+  PlainFile(const PlainFile&) = delete;
+  PlainFile& operator=(const PlainFile&) = delete;
+  /// B/s of writing `bytes` in place of the earlier ones and waiting until they are on disk.
+  double rate();
+
+ private:
+  std::size_t bytes_;
+  int file_;
+};
 
 }  // namespace rhexis::bench
