@@ -23,7 +23,8 @@ namespace {
 /// and veins follow arteries: split 4 (8 for each of half the places), length 6, table 16 and factor 1, sum 4
 /// ...
 constexpr double flop_up = 31;
-/// ... and those again, with flows and pressures 7, radius and length 17. What consumers do is not counted.
+/// ... and those again, with flows and pressures 7, radius and length 17. (Executed, by callgrind: 31.7
+/// and 56.0.) What consumers do is not counted.
 constexpr double flop_down = flop_up + 24;
 
 /// Takes each vessel and does nothing with it.
