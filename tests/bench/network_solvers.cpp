@@ -2,7 +2,6 @@
 //
 //   network_solvers [JUNCTIONS] [--json FILE]      lattice of degree <= 3 with loops, conductances lognormal,
 //                                                  stretched to a contrast of 1e12 (default 200000 junctions)
-//   network_solvers --tree-pair GENERATIONS        arterial tree and venous mirror: seconds, bytes a vessel
 //
 // Errors are the largest difference of a flow, relative to the inflow, from the most accurate solution: that
 // of the approximate Cholesky factor refined to 1e-14.
@@ -13,7 +12,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -27,7 +25,6 @@
 namespace {
 
 using namespace rhexis;
-using hemodynamics::GraphFlow;
 using hemodynamics::GraphSolver;
 using hemodynamics::solve_flow;
 
@@ -48,29 +45,6 @@ double memory(const std::string& field) {
 void forget_peak() {
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << "5";
-}
-
-int tree_pair(int generations) {
-  auto [graph, inlet, outlet] = networks::tree_pair(generations);
-  graph.radius.assign(graph.vessels(), 1e-3);
-  graph.length.assign(graph.vessels(), 1e-2);
-  for (auto* coordinate : {&graph.x, &graph.y, &graph.z}) coordinate->assign(graph.junctions, 0.5);
-  std::vector<double> g = networks::conductances(graph.vessels(), 1e6, 1);
-  const std::vector<network::Condition> conditions{networks::pressure(inlet, 12000),
-                                                   networks::pressure(outlet, 500)};
-  forget_peak();
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t processor_start = std::clock();
-  const GraphFlow result = solve_flow(graph, std::move(g), conditions);
-  const double seconds = seconds_since(start);
-  const double processor = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
-  fmt::print(
-      "{} vessels, {} junctions: {:.2f} s ({:.2f} s of processor), {:.1f} bytes a vessel at the peak, graph "
-      "included; "
-      "core {}, imbalance {:.1e}\n",
-      graph.vessels(), graph.junctions, seconds, processor,
-      memory("VmHWM:") / static_cast<double>(graph.vessels()), result.core_junctions, result.max_imbalance);
-  return 0;
 }
 
 struct Method {
@@ -141,7 +115,6 @@ int main(int argc, char** argv) {
   std::string json_file;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--tree-pair" && i + 1 < argc) return tree_pair(std::atoi(argv[i + 1]));
     if (word == "--json" && i + 1 < argc) {
       json_file = argv[++i];
     } else {

@@ -32,12 +32,7 @@ double now() {
 }
 
 nlohmann::json measure(int generations, parallel::Communicator comm) {
-  network::TreeRules rules = test::plain_rules(generations);
-  rules.exponent =
-      network::exponent_between(12.5e-3, 3e-6 * std::exp2((34 - generations) / 2.76), generations);
-  rules.least_asymmetry = 0.7;
-  rules.length_spread = 0.2;
-  rules.seed = 1;
+  const network::TreeRules rules = test::body_rules(generations);
   const network::TreePair tree(rules);
   double start = now();
   const hemodynamics::TreeFlow flow(tree, test::in_vivo(), {inlet, outlet, {}}, comm);

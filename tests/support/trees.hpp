@@ -32,6 +32,17 @@ inline network::TreeRules random_rules(int generations) {
   return rules;
 }
 
+/// The upper generations of a body's tree of 34, every vessel its own.
+inline network::TreeRules body_rules(int generations) {
+  network::TreeRules rules = plain_rules(generations);
+  rules.exponent =
+      network::exponent_between(rules.root_radius, 3e-6 * std::exp2((34 - generations) / 2.76), generations);
+  rules.least_asymmetry = 0.7;
+  rules.length_spread = 0.2;
+  rules.seed = 1;
+  return rules;
+}
+
 inline hemodynamics::Viscosity in_vivo() {
   hemodynamics::Viscosity viscosity;
   viscosity.law = hemodynamics::ViscosityLaw::in_vivo;

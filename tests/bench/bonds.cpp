@@ -1,0 +1,146 @@
+// Bond evaluations a second of Body::advance, one property of the wall changed at a time.
+//
+// Counters: directed bonds/s and the flop/s counted for them (peridynamics::flop_per_bond, whatever the law),
+// ns a particle and step, and shares of two limits of this machine at that moment:
+// - of_peak: of its fused multiply-adds. The kernel cannot reach 1: most of its operations are not fused.
+// - of_issue: of the 512-bit operations that it can issue, taken as those of the loop of fused multiply-adds,
+//   which does nothing else (two a cycle on ports 0 and 5 of Intel's processors with AVX-512). Given where a
+//   bond's were counted: uniform PMB in single precision with 16 lanes.
+#include <omp.h>
+
+#include <functional>
+#include <random>
+#include <set>
+
+#include "bench/cases.hpp"
+#include "peridynamics/bond_kernel.hpp"
+#include "support/vessels.hpp"
+
+namespace rhexis::bench {
+namespace {
+
+/// Micro-operations for one bond of 16 rows on the two ports that 512-bit arithmetic has, from the
+/// disassembly of ColumnBody<Pmb, float>::step_unit (g++ 12, AVX-512): 28 arithmetic instructions, 9 of them
+/// fused, among them an approximate root that takes 3, and 3 of masks. Loads have other ports.
+constexpr double issued_a_bond = 33;
+
+struct Wall {
+  std::string section = "lattice";
+  int across = 5;  ///< spacings
+  int rows = 104;
+  std::string bonds = "single", law = "pmb";
+  bool scattered = false;
+  std::string damage = "none";  ///< "scattered": of bonds; "cracked": of a column's bonds along all its rows
+  double broken = 0;            ///< share of the bonds
+
+  std::string name() const {
+    return "bonds/section=" + section + "/across=" + std::to_string(across) +
+           "/rows=" + std::to_string(rows) + "/bonds=" + bonds + "/law=" + law +
+           "/wall=" + (scattered ? "scattered" : "uniform") + "/damage=" + damage +
+           (broken > 0 ? std::to_string(std::lround(100 * broken)) : "");
+  }
+};
+
+std::unique_ptr<peridynamics::Body> make_body(const Wall& wall) {
+  peridynamics::Parameters p = test::paper_vessel();
+  p.cross_section = wall.section;
+  p.surface_correction = "none";  // changes numbers, not work
+  p.spacing = (p.outer_radius - p.inner_radius) / wall.across;
+  p.horizon = 3.5 * *p.spacing;
+  p.length = wall.rows * *p.spacing;
+  p.bond_precision = wall.bonds;
+  p.law.name = wall.law;
+  if (wall.law == "fung") p.law.fung_exponent = 5;
+  if (wall.scattered) p.scatter.critical_stretch = p.scatter.stiffness = 0.03;
+  peridynamics::BodySetup setup = test::setup_of(p, 1e-9);
+  setup.time_step = 0.5 * test::stable_step_of(setup);
+  return peridynamics::make_body(std::move(setup), test::self());
+}
+
+/// Inflated by 1 %, so that forces are ordinary numbers, and damaged.
+void set_state(peridynamics::Body& body, const Wall& wall) {
+  const auto inflated = [](const std::array<double, 3>& x) {
+    return std::array<double, 3>{0.01 * x[0], 0.01 * x[1], 0};
+  };
+  body.set_state(test::sample(body, inflated), test::sample(body, test::nothing));
+  if (wall.broken == 0) return;
+  peridynamics::Body::Saved state = body.save();
+  const peridynamics::BondWordLayout layout = body.bond_word_layout();
+  std::mt19937_64 random(1);
+  std::bernoulli_distribution breaks(wall.broken);
+  auto word = state.words.begin();
+  for (std::int64_t bond = 0; bond < layout.row_count; ++bond) {
+    const bool all = wall.damage == "cracked" && breaks(random);
+    for (std::int64_t i = 0; i < layout.word_count; ++i, ++word) {
+      if (all) *word = 0;
+      for (int bit = 0; wall.damage == "scattered" && bit < 16; ++bit) {
+        if (breaks(random)) *word = static_cast<std::uint16_t>(*word & ~(1u << bit));
+      }
+    }
+  }
+  body.restore(state);
+}
+
+void run(benchmark::State& state, const Wall& wall, int threads) {
+  omp_set_num_threads(threads);
+  const auto body = make_body(wall);
+  set_state(*body, wall);
+  std::int64_t evaluated = 0;
+  const auto advance = [&](int steps) {
+    const std::int64_t before = body->bond_evaluations();
+    const double start = now(threads);
+    for (int i = 0; i < steps; ++i) body->advance(0, 0);
+    const double seconds = now(threads) - start;
+    evaluated = body->bond_evaluations() - before;
+    return Sample{seconds, peridynamics::flop_per_bond * static_cast<double>(evaluated)};
+  };
+  advance(1);  // touches all memory
+  constexpr double least_seconds = 2e-3;
+  const int steps = 1 + static_cast<int>(least_seconds / advance(1).seconds);
+  const auto peak = [&] {
+    return wall.bonds == "single" ? fma_rate<float>(threads) : fma_rate<double>(threads);
+  };
+  const Medians found = measure(state, peak, [&] { return advance(steps); });
+  const auto particles = static_cast<double>(body->layout().local_count());
+  state.counters["bonds_per_s"] = found.rate / peridynamics::flop_per_bond;
+  state.counters["flop_per_s"] = found.rate;
+  state.counters["ns_per_particle_step"] = 1e9 * found.seconds / (particles * steps);
+  state.counters["particles"] = particles;
+  state.counters["bonds_a_particle"] = static_cast<double>(evaluated) / (particles * steps);
+  const bool counted = hwy::HWY_NAMESPACE::MaxLanes(hwy::HWY_NAMESPACE::ScalableTag<float>()) == 16 &&
+                       wall.bonds == "single" && wall.law == "pmb" && !wall.scattered && wall.broken == 0;
+  if (counted) state.counters["of_issue"] = found.of_peak * 2 * issued_a_bond / peridynamics::flop_per_bond;
+}
+
+/// `wall` with something changed.
+Wall with(Wall wall, const std::function<void(Wall&)>& change) {
+  change(wall);
+  return wall;
+}
+
+}  // namespace
+
+void add_cases(const Options& options) {
+  const Wall paper;
+  std::vector<Wall> walls{paper};
+  for (const int rows : {16, 100, 1000}) walls.push_back(with(paper, [&](Wall& w) { w.rows = rows; }));
+  for (const int across : {3, 5, 10}) {
+    walls.push_back(with(paper, [&](Wall& w) { w.section = "polar", w.across = across; }));
+  }
+  walls.push_back(with(paper, [](Wall& w) { w.bonds = "double"; }));
+  for (const char* law : {"fung", "lps"}) walls.push_back(with(paper, [&](Wall& w) { w.law = law; }));
+  walls.push_back(with(paper, [](Wall& w) { w.scattered = true; }));
+  for (const char* damage : {"scattered", "cracked"}) {
+    for (const double broken : {0.25, 0.75}) {
+      walls.push_back(with(paper, [&](Wall& w) { w.damage = damage, w.broken = broken; }));
+    }
+  }
+  for (const Wall& wall : walls) {
+    for (const int threads : std::set{1, omp_get_num_procs()}) {
+      add_case(wall.name() + "/threads=" + std::to_string(threads), options.samples,
+               [=](benchmark::State& state) { run(state, wall, threads); });
+    }
+  }
+}
+
+}  // namespace rhexis::bench
