@@ -66,7 +66,8 @@ inline peridynamics::BodySetup setup_of(peridynamics::Parameters p, double time_
 }
 
 inline double stable_step_of(const peridynamics::BodySetup& s) {
-  return peridynamics::stable_time_step(s.lattice, s.families, s.bond_constant, s.density, s.critical_stretch);
+  return peridynamics::stable_time_step(s.lattice, s.families, s.bond_constant, s.density,
+                                        s.critical_stretch);
 }
 
 /// A state given by functions of the reference position.
