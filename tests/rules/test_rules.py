@@ -62,7 +62,7 @@ class Rules(unittest.TestCase):
             self.assertRegex(text, re.escape(equation), equation)
 
     def test_files_named_in_the_docs_exist(self):
-        for doc in (ROOT / "README.md", SRC / "README.md"):
+        for doc in (ROOT / "README.md", SRC / "README.md", *(ROOT / "docs").glob("*.md")):
             for link in re.findall(r"\]\(([^)#:]+)\)", doc.read_text()):
                 self.assertTrue((doc.parent / link).exists(), f"{doc}: {link}")
 
