@@ -132,7 +132,7 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   if (with_output) {
     const Stopwatch watch(spent_.output);
     const peridynamics::Totals t = body_->totals();
-    open_area_ = gauge_->area();
+    open_area_ = t.broken_bonds > 0 ? gauge_->area() : 0;
     const double leak = coupling_ != nullptr && coupling_->two_way()
                             ? coupling_->leak()
                             : peridynamics::orifice_flow(c_.vessel.discharge_coefficient, open_area_,

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <span>
+
+#include "parallel/threads.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -85,33 +88,64 @@ OpeningGauge::OpeningGauge(const Lattice& lattice, const Body& body, parallel::C
                                                         static_cast<double>(sectors_))));
 }
 
-double OpeningGauge::area() const {
+/// What is known of each row from some of its particles.
+struct OpeningGauge::Rows {
+  Rows(const OpeningGauge& gauge, std::size_t rows)
+      : occupied(rows * gauge.bins_ / 64),
+        radii(rows),
+        particles(rows),
+        lowest(rows * gauge.sectors_, std::numeric_limits<double>::max()),
+        highest(lowest.size(), std::numeric_limits<double>::lowest()) {}
+
+  std::vector<std::uint64_t> occupied;  ///< [rows][bins], a bit each
+  std::vector<std::int64_t> radii;      ///< sums, in quanta
+  std::vector<std::int64_t> particles;  ///< how many
+  std::vector<double> lowest, highest;  ///< m, [rows][sectors]
+};
+
+void OpeningGauge::look_at(std::size_t column, Rows& rows) const {
   const PointLayout& layout = body_->layout();
   const auto u = body_->displacement();
+  const std::size_t words = bins_ / 64,
+                    sector = sector_of_[static_cast<std::size_t>(layout.first_column) + column];
+  std::size_t i = column * static_cast<std::size_t>(layout.row_count);
+  for (std::int64_t r = 0; r < layout.row_count; ++r, ++i) {
+    const auto x = body_->reference_position(static_cast<std::int64_t>(column), r);
+    if (!thin_spots_.none() && !thin_spots_.present(x[0], x[1], x[2])) continue;
+    const double px = x[0] + u[0][i], py = x[1] + u[1][i], pz = x[2] + u[2][i];
+    const auto row = static_cast<std::size_t>(layout.first_row + r);
+    const auto bin = std::min(bins_ - 1, static_cast<std::size_t>(turn(px, py) * static_cast<double>(bins_)));
+    rows.occupied[row * words + bin / 64] |= std::uint64_t{1} << (bin % 64);
+    ++rows.particles[row];
+    rows.radii[row] += std::llround(std::min(std::hypot(px, py) / radius_quantum_, 0x1p40));
+    const std::size_t place = row * sectors_ + sector;
+    rows.lowest[place] = std::min(rows.lowest[place], pz);
+    rows.highest[place] = std::max(rows.highest[place], pz);
+  }
+}
+
+double OpeningGauge::area() const {
+  const PointLayout& layout = body_->layout();
   const std::size_t words = bins_ / 64;
   const double bin_width = 2 * std::numbers::pi / static_cast<double>(bins_);
-  std::vector<std::uint64_t> occupied(static_cast<std::size_t>(layout.rows) * words);
-  std::vector<std::int64_t> radii(static_cast<std::size_t>(layout.rows));  // sums, in quanta
-  std::vector<std::int64_t> particles(radii.size());
-  std::vector<double> lowest(radii.size() * sectors_, std::numeric_limits<double>::max());
-  std::vector<double> highest(lowest.size(), std::numeric_limits<double>::lowest());
-  std::size_t i = 0;
-  for (std::int64_t c = 0; c < layout.column_count; ++c) {
-    for (std::int64_t r = 0; r < layout.row_count; ++r, ++i) {
-      const auto x = body_->reference_position(c, r);
-      if (!thin_spots_.none() && !thin_spots_.present(x[0], x[1], x[2])) continue;
-      const double px = x[0] + u[0][i], py = x[1] + u[1][i];
-      const auto row = static_cast<std::size_t>(layout.first_row + r);
-      const auto bin =
-          std::min(bins_ - 1, static_cast<std::size_t>(turn(px, py) * static_cast<double>(bins_)));
-      occupied[row * words + bin / 64] |= std::uint64_t{1} << (bin % 64);
-      ++particles[row];
-      radii[row] += std::llround(std::min(std::hypot(px, py) / radius_quantum_, 0x1p40));
-      const std::size_t place =
-          row * sectors_ + sector_of_[static_cast<std::size_t>(layout.first_column + c)];
-      lowest[place] = std::min(lowest[place], x[2] + u[2][i]);
-      highest[place] = std::max(highest[place], x[2] + u[2][i]);
-    }
+  const int threads = parallel::thread_count();
+  std::vector<Rows> seen(static_cast<std::size_t>(threads),
+                         Rows(*this, static_cast<std::size_t>(layout.rows)));
+  parallel::for_each_share(threads, static_cast<std::size_t>(layout.column_count),
+                           [&](int thread, std::size_t begin, std::size_t end) {
+                             for (std::size_t c = begin; c < end; ++c)
+                               look_at(c, seen[static_cast<std::size_t>(thread)]);
+                           });
+  auto& [occupied, radii, particles, lowest, highest] = seen.front();
+  const auto merge = [](auto& into, const auto& from, const auto& how) {
+    std::transform(into.begin(), into.end(), from.begin(), into.begin(), how);
+  };
+  for (std::size_t t = 1; t < seen.size(); ++t) {
+    merge(occupied, seen[t].occupied, std::bit_or<>());
+    merge(radii, seen[t].radii, std::plus<>());
+    merge(particles, seen[t].particles, std::plus<>());
+    merge(lowest, seen[t].lowest, [](double a, double b) { return std::min(a, b); });
+    merge(highest, seen[t].highest, [](double a, double b) { return std::max(a, b); });
   }
   comm_.all_reduce(occupied, parallel::Reduce::bit_or);
   comm_.all_reduce(radii, parallel::Reduce::sum);

@@ -30,6 +30,10 @@ class OpeningGauge {
   double area() const;
 
  private:
+  struct Rows;
+  /// Adds the particles of one of this rank's columns.
+  void look_at(std::size_t column, Rows& rows) const;
+
   const Body* body_;
   parallel::Communicator comm_;
   ThinSpots thin_spots_;

@@ -54,6 +54,16 @@ struct Pmb {
     return hn::Mul(critical_stretch, hn::Add(hn::Set(d, hn::TFromD<D>(2)), critical_stretch));
   }
 
+  /// 1 + t. Within a thousandth of a bond's length, where t has lost the digits that this needs, it is held,
+  /// so that the force falls to zero with the distance instead of staying c: particles may lie on top of each
+  /// other.
+  template <class D, class V>
+  static HWY_INLINE V squared_length(D d, V t) {
+    namespace hn = hwy::HWY_NAMESPACE;
+    using Real = hn::TFromD<D>;
+    return hn::Max(hn::Add(hn::Set(d, Real{1}), t), hn::Set(d, Real(1e-6)));
+  }
+
   /// g(t), lane by lane. In single precision the root is approximate and then corrected to third order by its
   /// own residual, in a form that keeps the accuracy of small t: g is within 1e-6 |g| + 5e-11.
   template <class D, class V>
@@ -61,9 +71,7 @@ struct Pmb {
     namespace hn = hwy::HWY_NAMESPACE;
     using Real = hn::TFromD<D>;
     const V one = hn::Set(d, Real{1});
-    // Within a thousandth of a bond's length, where t has lost the digits that 1 + t needs, the force falls
-    // to zero with the distance instead of staying c: particles may lie on top of each other.
-    const V a = hn::Max(hn::Add(one, t), hn::Set(d, Real(1e-6)));
+    const V a = squared_length(d, t);
     if constexpr (std::is_same_v<Real, double>) {
       return hn::Div(t, hn::Add(a, hn::Sqrt(a)));
     } else {
@@ -81,18 +89,15 @@ struct Pmb {
   static HWY_INLINE V stretch(D d, V t, V g) {
     namespace hn = hwy::HWY_NAMESPACE;
     const V one = hn::Set(d, hn::TFromD<D>{1});
-    return hn::Mul(hn::Mul(g, hn::Add(one, t)), hn::Sub(one, g));
+    return hn::Mul(hn::Mul(g, squared_length(d, t)), hn::Sub(one, g));
   }
 
   /// s^2 / 2: the micropotential is w = c |xi| s^2 / 2 (J/m6).
   template <class D, class V>
   static HWY_INLINE V energy_factor(D d, V t) {
     namespace hn = hwy::HWY_NAMESPACE;
-    using Real = hn::TFromD<D>;
-    const V one = hn::Set(d, Real{1});
-    const V root = hn::Sqrt(hn::Max(hn::Add(one, t), hn::Zero(d)));
-    const V s = hn::Div(t, hn::Add(one, root));
-    return hn::Mul(hn::Mul(s, s), hn::Set(d, Real(0.5)));
+    const V s = stretch(d, t, force_factor(d, t));
+    return hn::Mul(hn::Mul(s, s), hn::Set(d, hn::TFromD<D>(0.5)));
   }
 };
 
