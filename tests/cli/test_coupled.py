@@ -296,7 +296,7 @@ class Coupled(unittest.TestCase):
         """The whole vessel, and the piece of it that the constant-N rule leaves; both tear and are vented."""
         self.write({"j.csv": JUNCTIONS.replace(",20\n", ",200\n")})
         network, wall = ONE_WAY.split("[material]")
-        wall = changed(changed(changed(wall, "step", ""), "end", 'end = "0.5 ms"'), "every_steps", "every_steps = 40")
+        wall = changed(changed(changed(wall, "step", ""), "end", 'end = "0.7 ms"'), "every_steps", "every_steps = 40")
         wall = changed(changed(wall, "critical_stretch", "critical_stretch = 0.01"), "ramp_time", 'ramp_time = "0.2 ms"') + '[boundary]\nends = "sliding"\n'
         area = math.pi * (2.25e-3**2 - 1.5e-3**2)
         for name, particles, spacing in (("whole", 'spacing = "250 um"', "250 um"), ("piece", "particles = 4400", f"{0.75e-3 / 5!r} m")):
