@@ -162,7 +162,7 @@ ParameterList declare(Parameters& p) {
       {"time.step_fraction",
        &p.step_fraction,
        "1",
-       "0.8",
+       "0.65",
        "Share of the stable time step that \"auto\" takes.",
        "",
        {.lower = 0, .upper = 1, .lower_open = true}},

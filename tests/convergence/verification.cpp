@@ -61,7 +61,7 @@ int run(int argc, char** argv) {
     const long steps = std::atol(argv[8]);
     std::puts("step,drift");
     long part = 0;
-    for (double drift : energy_drift(d, number, 0.8, steps))
+    for (double drift : energy_drift(d, number, 0.65, steps))
       std::printf("%ld,%.10g\n", ++part * steps / 10, drift);
   } else if (study == "free_ends" && argc == 8) {
     const FreeEnds e = free_ends(d, std::atoi(argv[7]));

@@ -17,7 +17,7 @@ peridynamics::Parameters weak_vessel() {
   v.length = 1.6e-3;
   v.schedule = "smooth_ramp";
   v.end_time = 5e-4;
-  v.step_fraction = 0.8;
+  v.step_fraction = 0.65;
   peridynamics::resolve(v);
   return v;
 }

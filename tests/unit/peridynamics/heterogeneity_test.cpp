@@ -17,7 +17,7 @@ Parameters scattered(double critical_stretch, double stiffness, const char* law 
   Parameters p = test::paper_vessel(2e-3);
   p.ends = "free";
   p.bond_precision = "double";
-  p.step_fraction = 0.8;
+  p.step_fraction = 0.65;
   p.scatter = {.law = law, .critical_stretch = critical_stretch, .stiffness = stiffness};
   return p;
 }
