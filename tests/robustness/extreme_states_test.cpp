@@ -16,23 +16,8 @@ class Extreme : public testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(Bonds, Extreme, testing::Values(false, true),
                          [](const auto& i) { return i.param ? "double" : "single"; });
 
-/// Two particles one spacing (1 m) apart along x, of 1 m3 and 1 kg each, with c = 1.
-BodySetup pair(bool doubles) {
-  BodySetup s;
-  s.lattice = {{{0.0, 1.0}, {0.0, 0.0}, {1.0, 1.0}}, 1, 1.0, 1.0, 1.5};
-  s.families = make_families(s.lattice);
-  s.layer = {{0.0, 0.0}, {0.0, 0.0}};
-  s.density = 1;
-  s.bond_constant = 1;
-  s.critical_stretch = 10;
-  s.time_step = 1e-2;
-  s.energy_scale = 1;
-  s.double_bonds = doubles;
-  return s;
-}
-
 TEST_P(Extreme, ForceOfCoincidentParticlesIsNeverAboveTheOneAtFullCompression) {
-  const auto body = make_body(pair(doubles()), test::self());
+  const auto body = make_body(test::two_particles(doubles(), 10, 1e-2), test::self());
   for (double distance : {0.0, 1e-9, 1e-7, 1e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 1e-2, 0.1}) {
     body->set_state(State{{{0.0, distance - 1}, {0.0, 0.0}, {0.0, 0.0}}},
                     State{{{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}});
@@ -47,7 +32,7 @@ TEST_P(Extreme, ForceOfCoincidentParticlesIsNeverAboveTheOneAtFullCompression) {
 }
 
 TEST_P(Extreme, PairThatPassesThroughItselfKeepsItsEnergy) {
-  const auto body = make_body(pair(doubles()), test::self());
+  const auto body = make_body(test::two_particles(doubles(), 10, 1e-2), test::self());
   // Fast enough towards each other to pass, not head on.
   body->set_state(State{{{0.0, 0.0}, {0.0, 1e-3}, {0.0, 0.0}}}, State{{{1.0, -1.0}, {0.0, 0.0}, {0.0, 0.0}}});
   const double start = test::energy(*body);

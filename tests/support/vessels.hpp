@@ -65,6 +65,21 @@ inline peridynamics::BodySetup setup_of(peridynamics::Parameters p, double time_
   return peridynamics::make_setup(p, std::move(lattice), std::move(families), time_step);
 }
 
+/// Two particles one spacing (1 m) apart along x, of 1 m3 and 1 kg each, with c = 1; no load.
+inline peridynamics::BodySetup two_particles(bool doubles, double critical_stretch, double time_step) {
+  peridynamics::BodySetup s;
+  s.lattice = {{{0.0, 1.0}, {0.0, 0.0}, {1.0, 1.0}}, 1, 1.0, 1.0, 1.5};
+  s.families = make_families(s.lattice);
+  s.layer = {{0.0, 0.0}, {0.0, 0.0}};
+  s.density = 1;
+  s.bond_constant = 1;
+  s.critical_stretch = critical_stretch;
+  s.time_step = time_step;
+  s.energy_scale = 1;
+  s.double_bonds = doubles;
+  return s;
+}
+
 inline double stable_step_of(const peridynamics::BodySetup& s) {
   return peridynamics::stable_time_step(s.lattice, s.families, s.bond_constant, s.density,
                                         s.critical_stretch);
@@ -82,6 +97,13 @@ std::array<std::vector<double>, 3> sample(const peridynamics::Body& body, const 
     }
   }
   return values;
+}
+
+/// Wild enough to break some bonds at a critical stretch of 0.05.
+inline auto wild(double spacing) {
+  return [a = 0.1 * spacing](const std::array<double, 3>& x) {
+    return std::array{a * std::sin(9e4 * x[1]), a * std::sin(5e4 * x[2]), a * std::sin(7e4 * x[0])};
+  };
 }
 
 inline std::array<double, 3> nothing(const std::array<double, 3>&) {

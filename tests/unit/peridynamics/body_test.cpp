@@ -17,27 +17,12 @@ class Precision : public testing::TestWithParam<bool> {
 INSTANTIATE_TEST_SUITE_P(Bonds, Precision, testing::Values(false, true),
                          [](const auto& i) { return i.param ? "double" : "single"; });
 
-/// Two particles one spacing (1 m) apart along x, volume 1 m3, no load.
-BodySetup pair(bool doubles, double time_step) {
-  BodySetup s;
-  s.lattice = {{{0.0, 1.0}, {0.0, 0.0}, {1.0, 1.0}}, 1, 1.0, 1.0, 1.5};
-  s.families = make_families(s.lattice);
-  s.layer = {{0.0, 0.0}, {0.0, 0.0}};
-  s.density = 1;
-  s.bond_constant = 1;
-  s.critical_stretch = 0.25;
-  s.time_step = time_step;
-  s.energy_scale = 1;
-  s.double_bonds = doubles;
-  return s;
-}
-
 using State = std::array<std::vector<double>, 3>;
 
 TEST_P(Precision, PairBreaksAtTheCriticalStretchAtBothEndsAtOnce) {
   const double margin = doubles() ? 1e-14 : 2e-7;
   for (double away : {-margin, margin}) {
-    const auto body = make_body(pair(doubles(), 1e-3), test::self());
+    const auto body = make_body(test::two_particles(doubles(), 0.25, 1e-3), test::self());
     body->set_state(State{{{0.0, 0.25 + away}, {0.0, 0.0}, {0.0, 0.0}}},
                     State{{{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}}});
     const Observation& seen = body->observe(0);
@@ -55,7 +40,7 @@ TEST_P(Precision, PairBreaksAtTheCriticalStretchAtBothEndsAtOnce) {
 TEST_P(Precision, PairOscillatesAtItsFrequencyToSecondOrder) {
   // Relative motion of the pair: r'' = -2 c s, so s = s0 cos(sqrt(2) t) along the bond.
   const auto error = [&](double dt) {
-    const auto body = make_body(pair(doubles(), dt), test::self());
+    const auto body = make_body(test::two_particles(doubles(), 0.25, dt), test::self());
     const double amplitude = 0.1, end = 4;
     body->set_state(State{{{-amplitude / 2, amplitude / 2}, {0, 0}, {0, 0}}},
                     State{{{0, 0}, {0, 0}, {0, 0}}});
@@ -119,15 +104,7 @@ TEST_P(Precision, MomentumIsConserved) {
   p.critical_stretch = 0.05;
   const BodySetup setup = test::setup_of(p, 1e-7);
   const auto body = make_body(BodySetup(setup), test::self());
-  // Wild enough to break some bonds.
-  const double h = setup.lattice.spacing;
-  body->set_state(test::sample(*body,
-                               [&](auto x) {
-                                 return std::array{0.1 * h * std::sin(9e4 * x[1]),
-                                                   0.1 * h * std::sin(5e4 * x[2]),
-                                                   0.1 * h * std::sin(7e4 * x[0])};
-                               }),
-                  test::sample(*body, test::nothing));
+  body->set_state(test::sample(*body, test::wild(setup.lattice.spacing)), test::sample(*body, test::nothing));
   const Observation& seen = body->observe(0);
   EXPECT_GT(body->totals().broken_bonds, 0);
   const PointLayout& l = body->layout();
