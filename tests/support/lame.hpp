@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 #include "peridynamics/elastic_error.hpp"
 #include "peridynamics/time_steps.hpp"
 #include "support/vessels.hpp"
@@ -33,6 +35,23 @@ inline peridynamics::ElasticError error_at_rest(const peridynamics::Parameters& 
     most = std::max(most, u / exact);
   }
   return {std::sqrt(error / size), most / least - 1};
+}
+
+/// The error found without a run is the one that the docs state.
+inline void expect_stated_error(const peridynamics::Parameters& p, double error, double spread) {
+  const peridynamics::ElasticError e = peridynamics::elastic_error(p, setup_of(p, 1e-7));
+  std::cout << "error " << e.relative_l2 << ", spread " << e.spread << '\n';
+  EXPECT_NEAR(e.relative_l2, error, 0.02 * error);
+  EXPECT_NEAR(e.spread, spread, 0.04 * spread);
+}
+
+/// The engine, brought to rest in so many steps, is where the linear solution says.
+inline void expect_engine_at_linear_solution(const peridynamics::Parameters& p, int steps) {
+  const peridynamics::BodySetup setup = setup_of(p, 1e-7);
+  const peridynamics::ElasticError engine = error_at_rest(p, setup, steps),
+                                   linear = peridynamics::elastic_error(p, setup);
+  EXPECT_NEAR(engine.relative_l2, linear.relative_l2, 0.002);
+  EXPECT_NEAR(engine.spread, linear.spread, 0.002);
 }
 
 }  // namespace rhexis::test
