@@ -191,7 +191,8 @@ void VesselRun::warn_of_crushed_bonds(long step, const peridynamics::Totals& t) 
   crushing_was_said_ = true;
   console_.warning(
       fmt::format("at {} {} bonds are compressed to less than half their length, where {} is no longer known "
-                  "to be stable: watch the balance of energy, or use a smaller time.step",
+                  "to be stable: the run will stop if energy exceeds the work done by a tenth; a smaller "
+                  "time.step is safer",
                   quantity(time_at(step), "s"), grouped(t.crushed_bonds), quantity(c_.time_step, "s")));
 }
 

@@ -73,6 +73,20 @@ TEST_P(Extreme, CrushedTubeSpringsBackWithoutBlowingUp) {
   }
 }
 
+TEST(Balance, CrushedBondsLeaveLessRoomForEnergyOutOfNowhere) {
+  Totals t;
+  t.kinetic = 1.05;
+  t.external_work = 1;
+  t.crushed_bonds = 1;
+  EXPECT_TRUE(holds_no_more_than_was_put_in(t));
+  t.kinetic = 1.5;
+  EXPECT_FALSE(holds_no_more_than_was_put_in(t));
+  t.crushed_bonds = 0;
+  EXPECT_TRUE(holds_no_more_than_was_put_in(t));
+  t.kinetic = 2.5;
+  EXPECT_FALSE(holds_no_more_than_was_put_in(t));
+}
+
 TEST_P(Extreme, StronglyStretchedTubeSpringsBackToo) {
   // Across a bond the stiffness grows to c/|xi| as s grows, which the stable step is made for.
   EXPECT_LT(worst_energy(tube(), 3, 0.95, 100), 0.15);
