@@ -91,7 +91,7 @@ output::Performance RunBase::performance() const {
   if (const auto own = bond_evaluations()) {
     p.bond_evaluations = comm_.all_reduce(*own, parallel::Reduce::sum);
     if (spent_.solve > 0) p.bond_evaluations_per_s = static_cast<double>(*p.bond_evaluations) / spent_.solve;
-    p.flop = static_cast<double>(*p.bond_evaluations) * peridynamics::flop_per_bond;
+    p.flop = 0.5 * static_cast<double>(*p.bond_evaluations) * peridynamics::flop_per_bond;
   }
   p.peak_rss_bytes = comm_.all_reduce(output::peak_resident_bytes(), parallel::Reduce::sum);
   p.node_hours = *p.wall_s * comm_.node_count() / 3600;

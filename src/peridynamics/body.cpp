@@ -5,6 +5,7 @@
 
 #include "peridynamics/column_body_dilatation.hpp"
 #include "peridynamics/column_body_observe.hpp"
+#include "peridynamics/column_body_parts.hpp"
 #include "peridynamics/column_body_state.hpp"
 #include "peridynamics/column_body_step.hpp"
 #include "peridynamics/materials/with_law.hpp"

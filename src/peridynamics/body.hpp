@@ -102,7 +102,7 @@ class Body {
 
   /// Undirected bonds that the whole body was born with. Collective.
   virtual std::int64_t bonds() const = 0;
-  /// Directed bond evaluations so far, on this rank.
+  /// Directed bonds whose forces were summed in steps so far, on this rank.
   virtual std::int64_t bond_evaluations() const = 0;
 
   /// All that a restart needs beside displacement: leapfrog velocity (m/s), bond words and the work done so

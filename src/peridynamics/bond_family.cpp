@@ -70,6 +70,13 @@ BondFamilies make_families(const Lattice& lattice) {
         families.reach = std::max(families.reach, std::abs(m));
       }
     }
+    const auto first = families.bonds.begin() + families.first.back();
+    const auto later = std::find_if(first, families.bonds.end(), [&](const Bond& bond) {
+      return bond.other > static_cast<std::int32_t>(i);
+    });
+    std::sort(later, families.bonds.end(), [](const Bond& a, const Bond& b) {
+      return a.row_offset != b.row_offset ? a.row_offset > b.row_offset : a.other < b.other;
+    });
     families.first.push_back(static_cast<std::int64_t>(families.bonds.size()));
   }
   return families;

@@ -20,8 +20,11 @@ struct Bond {
   double weight = 1;  ///< factor on force and energy, see surface_correction.hpp
 };
 
-/// Bonds of all columns, those of column c at [first[c], first[c + 1]), ordered by (other, row_offset): an
-/// order that no partition changes, so that sums do not depend on one.
+/// Bonds of all columns, those of column c at [first[c], first[c + 1]), in an order that no partition
+/// changes, so that sums do not depend on one: first those to columns before c and to c itself, by (other,
+/// row_offset); then those to columns after c, by (row_offset, other), row_offset falling. It is the order in
+/// which contributions arrive where each column, one after another and each from its first row on, adds to
+/// the sums of columns after it (column_body_parts.hpp), and there no column is added to twice in a row.
 struct BondFamilies {
   std::vector<std::int64_t> first;
   std::vector<Bond> bonds;

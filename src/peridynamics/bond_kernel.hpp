@@ -1,9 +1,9 @@
 /// The inner loop: forces of one column's bonds on 16 of its rows at once (Eqs. 1, 2, 5).
 ///
-/// Gather: every particle sums its whole family, in the family's fixed order, lane by lane; nothing is
-/// scattered. So on one kind of processor the digits do not depend on threads and ranks, and as |xi + eta|^2
-/// is computed from terms that change only their sign between the two ends, both ends break a bond in the
-/// same step.
+/// Every particle sums its family in the family's fixed order, lane by lane, so that on one kind of processor
+/// the digits do not depend on threads and ranks. |xi + eta|^2 is computed from terms that change only their
+/// sign between the two ends of a bond: both ends break it in the same step, and its force is the same
+/// whether each end evaluates it for itself or one for both.
 ///
 /// Lengths are in spacings. With y = xi + eta:  t = eta . (xi + y) / |xi|^2  is (1 + s)^2 - 1 without
 /// cancellation.
@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -33,10 +34,16 @@ template <class Real>
 struct BondConstants {
   Real xi[3];
   Real inverse_length2;  ///< 1 / |xi|^2
-  Real weight;           ///< w V_j / (spacing^3 |xi|): force density is c spacing^3 sum weight g(t) y
-  Real volume;           ///< V_j / spacing^3
-  Real energy_weight;    ///< w volume |xi|: energy density is c spacing^4 sum energy_weight s^2/2, halved
-  std::int32_t offset;   ///< of the partner in padded arrays, from the particle's own place
+  Real weight;  ///< w V_i V_j / (spacing^6 |xi|): force is c spacing^6 sum weight g(t) y, of either end
+  Real volume;  ///< V_j / spacing^3
+  Real energy_weight;   ///< w volume |xi|: energy density is c spacing^4 sum energy_weight s^2/2, halved
+  std::int32_t offset;  ///< of the partner in padded arrays, from the particle's own place
+};
+
+/// Bonds [first, past) of a family that are evaluated for this end only, or for both.
+struct BondRun {
+  std::int32_t first, past;
+  bool both;
 };
 
 /// One block of one column: what the bonds read and the bits they may clear.
@@ -45,6 +52,7 @@ struct BlockView {
   const Real* u[3];  ///< padded displacement, at the block's first row
   std::span<const BondConstants<Real>> bonds;
   std::uint16_t* intact;             ///< one word per bond, bit k: bond of row k exists and is unbroken
+  std::array<Real*, 3> others = {};  ///< sums of the other ends' force, padded, at the block's first row
   Real breaking_t;                   ///< of a uniform wall
   LocalProperties<Real> local = {};  ///< of one that is not, at the block's first row
   const Real* pressure = nullptr;    ///< of a state-based law, padded, at the block's first row
@@ -53,15 +61,16 @@ struct BlockView {
 /// Sums over each row's family.
 template <class Real>
 struct BlockSums {
-  alignas(64) Real force[3][parallel::block_rows];
-  alignas(64) Real energy[parallel::block_rows];  ///< filled when observing only
-  int broken = 0;                                 ///< directed bonds that broke now
+  alignas(64) Real force[3][parallel::block_rows] = {};  ///< added to
+  alignas(64) Real energy[parallel::block_rows];         ///< filled when observing only
+  int broken = 0;                                        ///< directed bonds of these rows that broke now
   int crushed = 0;  ///< directed bonds shorter than half their length; counted when observing only
 };
 
-/// Floating-point operations of one bond when it pulls: 9 for eta, y and xi + y, 6 for t, 13 for g(t), 1 for
-/// k, 6 for the force (a fused multiply-add counts as two, the approximate root as one).
-inline constexpr double flop_per_bond = 35;
+/// Floating-point operations of one bond that pulls, for both of its ends: 9 for eta, y and xi + y, 6 for t,
+/// 13 for g(t), 1 for k, 6 for the force on either end (a fused multiply-add counts as two, the approximate
+/// root as one). What is done twice, where one thread does not have both ends, counts once.
+inline constexpr double flop_per_bond = 41;
 
 /// Period of wrapped displacements, in spacings: twice as long as the ends of any bond can be moved apart.
 inline constexpr double wrap_period = 256;
@@ -172,61 +181,98 @@ HWY_INLINE std::uint16_t clear(D d, hn::Mask<D> fail, std::size_t lane, std::uin
   return broken;
 }
 
+/// What the rows from `lane` on of a block have summed so far.
+template <class D>
+struct Sums {
+  hn::Vec<D> x, y, z, energy;
+};
+
+/// Adds the bonds of a run, those `both` to the sums of their other ends too.
+template <bool both, bool observing, bool heterogeneous, bool wrapped, class D, class Law, class Real,
+          class Break>
+HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::size_t lane, const BondRun run,
+                        Sums<D>& sum, BlockSums<Real>& sums, const Break& on_break) {
+  using V = hn::Vec<D>;
+  const Ends<wrapped, D, Real> ends(d, block, lane);
+  const BreakingTest<heterogeneous, D, Real> test(d, block, lane);
+  V half_stiffness = hn::Zero(d), pressure = hn::Zero(d);
+  if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
+  if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
+  Sums<D> f = sum;
+  for (std::int32_t b = run.first; b < run.past; ++b) {
+    const BondConstants<Real>& bond = block.bonds[static_cast<std::size_t>(b)];
+    std::uint16_t& word = block.intact[b];
+    if (word == 0) continue;
+    [[maybe_unused]] const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
+    const auto [y_x, y_y, y_z, t] = ends.deformed(d, bond);
+    const std::uint16_t broken = clear(d, test.fails(d, law, bond, t), lane, word);
+    if (HWY_UNLIKELY(broken != 0)) {
+      sums.broken += std::popcount(broken);
+      if constexpr (both) on_break(b, broken);
+    }
+    const auto pulling = lanes_of(d, word, lane);
+    const V one = hn::Set(d, Real{1});
+    const V g = law.force_factor(d, t);
+    V stiffness = one, pull = g;
+    if constexpr (heterogeneous) {
+      stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + there));
+      pull = hn::Mul(g, stiffness);
+    }
+    if constexpr (Law::state_based) {
+      const V pressures = hn::Add(pressure, hn::LoadU(d, block.pressure + there));
+      pull = hn::MulAdd(pressures, hn::Sub(one, g), pull);  // 1 - g = 1 / (1 + s)
+    }
+    const V k = hn::IfThenElseZero(pulling, hn::Mul(pull, hn::Set(d, bond.weight)));
+    f.x = hn::MulAdd(k, y_x, f.x);
+    f.y = hn::MulAdd(k, y_y, f.y);
+    f.z = hn::MulAdd(k, y_z, f.z);
+    if constexpr (both) {
+      Real* const other[3] = {block.others[0] + there, block.others[1] + there, block.others[2] + there};
+      hn::StoreU(hn::NegMulAdd(k, y_x, hn::LoadU(d, other[0])), d, other[0]);
+      hn::StoreU(hn::NegMulAdd(k, y_y, hn::LoadU(d, other[1])), d, other[1]);
+      hn::StoreU(hn::NegMulAdd(k, y_z, hn::LoadU(d, other[2])), d, other[2]);
+    }
+    if constexpr (observing) {
+      V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
+      if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
+      f.energy = hn::Add(f.energy, hn::IfThenElseZero(pulling, w));
+      const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
+      sums.crushed += static_cast<int>(hn::CountTrue(d, crushed));
+    }
+  }
+  sum = f;
+}
+
 }  // namespace detail
 
-/// Breaks what is stretched too far, then adds the forces of what is left. With `observing` also the strain
-/// energy (half of each bond's, its other half belongs to the other end). Only a `heterogeneous` wall pays
-/// for properties by place, only a `wrapped` one for displacements that are known up to whole periods, and
-/// only a state-based law for the pressures p of its particles, which add p_i + p_j to the stretch
-/// (materials/lps.hpp).
-template <bool observing, bool heterogeneous, bool wrapped, class Law, class Real>
-HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, BlockSums<Real>& sums) {
+/// Breaks what is stretched too far, then adds the forces of what is left of `runs`. With `observing` also
+/// the strain energy (half of each bond's, its other half belongs to the other end). Only a `heterogeneous`
+/// wall pays for properties by place, only a `wrapped` one for displacements that are known up to whole
+/// periods, and only a state-based law for the pressures p of its particles, which add p_i + p_j to the
+/// stretch (materials/lps.hpp). `on_break(b, rows)` hears of bonds that break and are evaluated for both
+/// ends.
+template <bool observing, bool heterogeneous, bool wrapped, class Law, class Real, class Break>
+HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span<const BondRun> runs,
+                          BlockSums<Real>& sums, const Break& on_break) {
   namespace hn = hwy::HWY_NAMESPACE;
-  const hn::CappedTag<Real, parallel::block_rows> d;
-  using V = hn::Vec<decltype(d)>;
+  using D = hn::CappedTag<Real, parallel::block_rows>;
+  const D d;
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
-    const detail::Ends<wrapped, decltype(d), Real> ends(d, block, lane);
-    const detail::BreakingTest<heterogeneous, decltype(d), Real> test(d, block, lane);
-    V half_stiffness = hn::Zero(d), pressure = hn::Zero(d);
-    if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
-    if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
-    V fx = hn::Zero(d), fy = hn::Zero(d), fz = hn::Zero(d), energy = hn::Zero(d);
-    std::uint16_t* intact = block.intact;
-    for (const BondConstants<Real>& bond : block.bonds) {
-      std::uint16_t& word = *intact++;
-      if (word == 0) continue;
-      [[maybe_unused]] const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
-      const auto [y_x, y_y, y_z, t] = ends.deformed(d, bond);
-      const std::uint16_t broken = detail::clear(d, test.fails(d, law, bond, t), lane, word);
-      if (HWY_UNLIKELY(broken != 0)) sums.broken += std::popcount(broken);
-      const auto pulling = detail::lanes_of(d, word, lane);
-      const V one = hn::Set(d, Real{1});
-      const V g = law.force_factor(d, t);
-      V stiffness = one, pull = g;
-      if constexpr (heterogeneous) {
-        stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + there));
-        pull = hn::Mul(g, stiffness);
-      }
-      if constexpr (Law::state_based) {
-        const V both = hn::Add(pressure, hn::LoadU(d, block.pressure + there));
-        pull = hn::MulAdd(both, hn::Sub(one, g), pull);  // 1 - g = 1 / (1 + s)
-      }
-      const V k = hn::IfThenElseZero(pulling, hn::Mul(pull, hn::Set(d, bond.weight)));
-      fx = hn::MulAdd(k, y_x, fx);
-      fy = hn::MulAdd(k, y_y, fy);
-      fz = hn::MulAdd(k, y_z, fz);
-      if constexpr (observing) {
-        V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
-        if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
-        energy = hn::Add(energy, hn::IfThenElseZero(pulling, w));
-        const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
-        sums.crushed += static_cast<int>(hn::CountTrue(d, crushed));
+    detail::Sums<D> sum{hn::Load(d, sums.force[0] + lane), hn::Load(d, sums.force[1] + lane),
+                        hn::Load(d, sums.force[2] + lane), hn::Zero(d)};
+    for (const BondRun run : runs) {
+      if (run.both) {
+        detail::add_run<true, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums,
+                                                                 on_break);
+      } else {
+        detail::add_run<false, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums,
+                                                                  on_break);
       }
     }
-    hn::Store(fx, d, sums.force[0] + lane);
-    hn::Store(fy, d, sums.force[1] + lane);
-    hn::Store(fz, d, sums.force[2] + lane);
-    if constexpr (observing) hn::Store(hn::Mul(energy, hn::Set(d, Real(0.5))), d, sums.energy + lane);
+    hn::Store(sum.x, d, sums.force[0] + lane);
+    hn::Store(sum.y, d, sums.force[1] + lane);
+    hn::Store(sum.z, d, sums.force[2] + lane);
+    if constexpr (observing) hn::Store(hn::Mul(sum.energy, hn::Set(d, Real(0.5))), d, sums.energy + lane);
   }
 }
 

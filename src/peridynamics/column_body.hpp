@@ -1,7 +1,7 @@
 /// The one implementation of Body: what stands in memory and how it is found. Its work is in
-/// column_body_step.hpp (a step in time), column_body_dilatation.hpp (what a state-based law does before),
-/// column_body_observe.hpp (fields and totals) and column_body_state.hpp (bonds, state, restart); body.cpp
-/// includes all of them.
+/// column_body_step.hpp (a step in time), column_body_parts.hpp (the forces for it),
+/// column_body_dilatation.hpp (what a state-based law does before), column_body_observe.hpp (fields and
+/// totals) and column_body_state.hpp (bonds, state, restart); body.cpp includes all of them.
 #pragma once
 
 #include <hwy/aligned_allocator.h>
@@ -45,7 +45,19 @@ struct ThreadEvents {
   explicit ThreadEvents(double energy_scale) : work(energy_scale), released(energy_scale) {}
   ExactSum work, released;  ///< J; of state-based laws
   std::int64_t broken = 0;
+  std::vector<Unit> broken_units;  ///< where they have an end
   bool damaged = false, unstable = false;
+};
+
+/// A thread's columns and rows, see column_body_parts.hpp.
+template <class Real>
+struct Part {
+  std::int32_t first_slot = 0, past_slot = 0;
+  std::int64_t first_row = 0, past_row = 0;  ///< local
+  std::vector<BondRun> runs;
+  std::vector<std::size_t> first_run;                      ///< of each column, into runs
+  std::array<hwy::AlignedFreeUniquePtr<Real[]>, 3> force;  ///< sums, each column as in padded arrays
+  std::vector<std::uint16_t> words;                        ///< of one column's bonds from beyond the part
 };
 
 /// What a thread gathers while it observes.
@@ -98,6 +110,7 @@ class ColumnBody final : public Body {
     make_thin_spots();
     make_bonds();
     make_units();
+    make_parts();
     if constexpr (Law::state_based) state_.emplace(comm_, domain_, setup_.energy_scale);
     set_axial_profile(std::vector<double>(static_cast<std::size_t>(domain_.layout().rows), 1.0));
     const auto particles = static_cast<std::size_t>(domain_.layout().local_count());
@@ -142,15 +155,18 @@ class ColumnBody final : public Body {
   void restore(const Saved& saved) override;
 
  private:
+  /// Columns within a horizon of a radial cut through one side of the wall, both sides cut.
+  static std::int64_t columns_beside_cut(const Lattice& lattice) {
+    const auto columns = static_cast<double>(lattice.section.size());
+    const double share = lattice.horizon / (lattice.spacing * std::sqrt(columns));
+    return static_cast<std::int64_t>(share * columns) + 1;
+  }
   static parallel::Partition partition(const BodySetup& setup, int ranks) {
-    const std::size_t columns = setup.lattice.section.size();
-    std::vector<double> weights(columns);
-    for (std::size_t c = 0; c < columns; ++c) weights[c] = static_cast<double>(setup.families.count(c));
-    // Columns within a horizon of a radial cut through one side of the wall, both sides cut.
-    const double share =
-        setup.lattice.horizon / (setup.lattice.spacing * std::sqrt(static_cast<double>(columns)));
-    const auto halo = static_cast<std::int64_t>(share * static_cast<double>(columns)) + 1;
-    return parallel::make_partition(ranks, weights, setup.lattice.rows, halo, setup.families.reach);
+    std::vector<double> weights(setup.lattice.section.size());
+    for (std::size_t c = 0; c < weights.size(); ++c)
+      weights[c] = static_cast<double>(setup.families.count(c));
+    return parallel::make_partition(ranks, weights, setup.lattice.rows, columns_beside_cut(setup.lattice),
+                                    setup.families.reach);
   }
 
   std::size_t global_column(std::int32_t slot) const {
@@ -205,6 +221,9 @@ class ColumnBody final : public Body {
 
   void make_bonds();
   void make_units();
+  void make_parts();
+  void add_runs(Part<Real>& part, std::int32_t slot) const;
+  void find_opposites();
   std::pair<std::int64_t, std::vector<double>> padded_heights() const;
   void make_local_properties();
   void make_thin_spots();
@@ -217,6 +236,11 @@ class ColumnBody final : public Body {
     const double spacing = setup_.lattice.spacing;
     return setup_.bond_constant * (spacing * spacing * spacing) * spacing;
   }
+  /// Factor that makes force density, N/m3, of a block's sums.
+  double bond_force_density(std::size_t column) const {
+    const double spacing = setup_.lattice.spacing, unit = spacing * spacing * spacing;
+    return setup_.bond_constant * unit * (unit / setup_.lattice.volume(column));
+  }
   double external_work() const {
     return work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
   }
@@ -227,17 +251,31 @@ class ColumnBody final : public Body {
     const double x = (u - frame) * inverse_spacing_;
     return static_cast<Real>(x - wrap_period * std::nearbyint(x * per_period_));
   }
-  BlockView<Real> view(Unit unit);
+  BlockView<Real> view(std::int32_t slot, std::int64_t row, std::uint16_t* words);
+  BlockView<Real> view(Unit unit) {
+    return view(unit.slot, unit.block * block_rows, intact_.data() + first_word(unit));
+  }
+  BlockView<Real> view(Part<Real>& part, std::int32_t slot, std::int64_t row, std::uint16_t* words);
   template <class Use>
   void choose_kernel(const Use& use) const;
-  /// What `view` holds, summed by the kernel that it is for.
-  template <bool observing>
-  void sum(Unit unit, BlockSums<Real>& sums);
+  template <bool observing, class Break>
+  void sum(const BlockView<Real>& block, std::span<const BondRun> runs, BlockSums<Real>& sums,
+           const Break& on_break) const;
+  template <class Use>
+  void each_opposite(const Part<Real>& part, std::int32_t slot, std::int64_t row, std::int32_t b,
+                     const Use& use);
+  void break_other_ends(Part<Real>& part, std::int32_t slot, std::int64_t row, std::int32_t b,
+                        std::uint16_t broken, ThreadEvents& events);
+  void add_from_beyond(Part<Real>& part, std::int32_t slot, std::int64_t row, std::span<const BondRun> runs,
+                       ThreadEvents& events);
+  template <class Use>
+  void sum_part(Part<Real>& part, ThreadEvents& events, const Use& use);
   double breaking_energy(Unit unit, const BondConstants<Real>& bond, std::uint16_t broken) const;
   std::pair<int, int> free_rows(Unit unit, int component) const;
   void family_volumes(Unit unit, double (&intact)[block_rows], double (&whole)[block_rows]) const;
   bool has_ruptured(Unit unit) const;
-  void count_broken(Unit unit, int broken, ThreadEvents& events) const;
+  static void note_broken(Unit unit, int broken, ThreadEvents& events);
+  void look_for_rupture(ThreadEvents& events) const;
   double fracture_energy(Unit unit) const;
   double dilatation_energy(double theta, std::size_t place) const;
   double released_energy() const {
@@ -245,7 +283,8 @@ class ColumnBody final : public Body {
   }
   void dilate_unit(Unit unit, ThreadEvents& events);
   void find_dilatations(std::vector<ThreadEvents>& per_thread);
-  void step_unit(Unit unit, double pressure, double work_pressure, double kick, ThreadEvents& events);
+  void move_unit(Unit unit, const BlockSums<Real>& sums, double pressure, double work_pressure, double kick,
+                 ThreadEvents& events);
   void observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals);
   template <class PerThread, class Work>
   void with_halo(parallel::HaloExchange<Real>& halo, std::span<Real* const> field,
@@ -270,6 +309,8 @@ class ColumnBody final : public Body {
   std::vector<double> load_share_;         ///< [particles] relative to the whole wall's; empty: 1
   std::optional<States<Real>> state_;      ///< of state-based laws
   std::vector<Unit> interior_, boundary_;  ///< units that read no halo, units that do
+  std::vector<Part<Real>> parts_;          ///< of threads
+  std::vector<std::int32_t> opposite_;     ///< of bonds_, see find_opposites
 
   std::array<std::vector<double>, 3> u_, v_;  ///< m; m/s at half a step back (see first_kick_pending_)
   std::array<Padded, 2> padded_;

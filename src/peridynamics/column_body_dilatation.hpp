@@ -19,7 +19,7 @@ void ColumnBody<Law, Real>::dilate_unit(Unit unit, ThreadEvents& events) {
   choose_kernel([&]<bool heterogeneous, bool wrapped>() {
     sum_extensions<heterogeneous, wrapped>(law_, view(unit), sums);
   });
-  count_broken(unit, sums.broken, events);
+  note_broken(unit, sums.broken, events);
 
   const Lattice& lattice = setup_.lattice;
   const double per_extension = 3 / Law::weighted_volume(lattice.horizon / lattice.spacing);

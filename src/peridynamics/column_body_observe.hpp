@@ -43,14 +43,14 @@ double ColumnBody<Law, Real>::fracture_energy(Unit unit) const {
 template <class Law, class Real>
 void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals) {
   BlockSums<Real> sums;
-  sum<true>(unit, sums);
+  const BondRun all{0, static_cast<std::int32_t>(bonds_of(unit).size()), false};
+  sum<true>(view(unit), {&all, 1}, sums, [](std::int32_t, std::uint16_t) {});
   totals.broken += sums.broken;
   totals.crushed += sums.crushed;
 
   const std::size_t column = global_column(unit.slot);
   const Lattice& lattice = setup_.lattice;
-  const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
-  const double force_scale = setup_.bond_constant * volume;
+  const double force_scale = bond_force_density(column);
   const double particle_volume = lattice.volume(column);
   const double load[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
   double space[block_rows];

@@ -15,13 +15,14 @@ void ColumnBody<Law, Real>::make_bonds() {
     const auto column = static_cast<std::size_t>(layout.first_column + c);
     for (std::int64_t b = setup_.families.first[column]; b < setup_.families.first[column + 1]; ++b) {
       const Bond& bond = setup_.families.bonds[b];
-      const double volume = lattice.volume(bond.other) / unit_volume;
+      const double own_volume = lattice.volume(column) / unit_volume;
+      const double volume = lattice.volume(static_cast<std::size_t>(bond.other)) / unit_volume;
       const auto offset = static_cast<std::int64_t>(domain_.padded(domain_.slot(bond.other))) +
                           bond.row_offset -
                           static_cast<std::int64_t>(domain_.padded(static_cast<std::size_t>(c)));
       bonds_.push_back({{Real(bond.xi[0]), Real(bond.xi[1]), Real(bond.xi[2])},
                         Real(1 / (bond.length * bond.length)),
-                        Real(bond.weight * volume / bond.length),
+                        Real(bond.weight * (own_volume * volume) / bond.length),
                         Real(volume),
                         Real(bond.weight * volume * bond.length),
                         static_cast<std::int32_t>(offset)});

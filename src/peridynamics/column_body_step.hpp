@@ -6,15 +6,25 @@
 namespace rhexis::peridynamics {
 
 template <class Law, class Real>
-BlockView<Real> ColumnBody<Law, Real>::view(Unit unit) {
-  const std::size_t place = padded_place(unit);
+BlockView<Real> ColumnBody<Law, Real>::view(std::int32_t slot, std::int64_t row, std::uint16_t* words) {
+  const std::size_t place = domain_.padded(static_cast<std::size_t>(slot)) + static_cast<std::size_t>(row);
   const auto u = current();
-  BlockView<Real> block{{u[0] + place, u[1] + place, u[2] + place},
-                        bonds_of(unit),
-                        intact_.data() + first_word(unit),
-                        static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
+  BlockView<Real> block{.u = {u[0] + place, u[1] + place, u[2] + place},
+                        .bonds = bonds_of({slot, 0}),
+                        .intact = words,
+                        .breaking_t = static_cast<Real>(Law::breaking_t(setup_.critical_stretch))};
   if constexpr (Law::state_based) block.pressure = state_->pressure.data() + place;
   if (!half_stretch_.empty()) block.local = {half_stretch_.data() + place, half_stiffness_.data() + place};
+  return block;
+}
+
+template <class Law, class Real>
+BlockView<Real> ColumnBody<Law, Real>::view(Part<Real>& part, std::int32_t slot, std::int64_t row,
+                                            std::uint16_t* words) {
+  BlockView<Real> block = view(slot, row, words);
+  const std::size_t place =
+      domain_.padded(static_cast<std::size_t>(slot - part.first_slot)) + static_cast<std::size_t>(row);
+  for (std::size_t k = 0; k < 3; ++k) block.others[k] = part.force[k].get() + place;
   return block;
 }
 
@@ -31,10 +41,11 @@ void ColumnBody<Law, Real>::choose_kernel(const Use& use) const {
 }
 
 template <class Law, class Real>
-template <bool observing>
-void ColumnBody<Law, Real>::sum(Unit unit, BlockSums<Real>& sums) {
+template <bool observing, class Break>
+void ColumnBody<Law, Real>::sum(const BlockView<Real>& block, std::span<const BondRun> runs,
+                                BlockSums<Real>& sums, const Break& on_break) const {
   choose_kernel([&]<bool heterogeneous, bool wrapped>() {
-    sum_block<observing, heterogeneous, wrapped>(law_, view(unit), sums);
+    sum_block<observing, heterogeneous, wrapped>(law_, block, runs, sums, on_break);
   });
 }
 
@@ -80,10 +91,19 @@ bool ColumnBody<Law, Real>::has_ruptured(Unit unit) const {
 }
 
 template <class Law, class Real>
-void ColumnBody<Law, Real>::count_broken(Unit unit, int broken, ThreadEvents& events) const {
+void ColumnBody<Law, Real>::note_broken(Unit unit, int broken, ThreadEvents& events) {
   if (broken == 0) return;
   events.broken += broken;
-  if (!damaged_ && !events.damaged) events.damaged = has_ruptured(unit);
+  events.broken_units.push_back(unit);
+}
+
+/// Once all bonds of the units are broken that are due.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::look_for_rupture(ThreadEvents& events) const {
+  for (const Unit unit : events.broken_units) {
+    if (!damaged_ && !events.damaged) events.damaged = has_ruptured(unit);
+  }
+  events.broken_units.clear();
 }
 
 /// Runs `work(unit, per_thread[t])` over all units; the halo of `field` travels while units that do not need
@@ -115,18 +135,14 @@ void ColumnBody<Law, Real>::with_forces(std::vector<PerThread>& per_thread, cons
   }
 }
 
+/// From t_n to t_{n+1} under the forces of a unit's bonds and the load.
 template <class Law, class Real>
-void ColumnBody<Law, Real>::step_unit(Unit unit, double pressure, double work_pressure, double kick,
-                                      ThreadEvents& events) {
-  BlockSums<Real> sums;
-  sum<false>(unit, sums);
-  count_broken(unit, sums.broken, events);
-
+void ColumnBody<Law, Real>::move_unit(Unit unit, const BlockSums<Real>& sums, double pressure,
+                                      double work_pressure, double kick, ThreadEvents& events) {
   const std::size_t column = global_column(unit.slot);
   const Lattice& lattice = setup_.lattice;
   const double body_force[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
-  const double volume = lattice.spacing * lattice.spacing * lattice.spacing;
-  const double bond_acceleration = setup_.bond_constant * volume / setup_.density;
+  const double bond_acceleration = bond_force_density(column) / setup_.density;
   double space[block_rows];
   const double* share = load_shares(unit, space);
   const double dt = setup_.time_step;
@@ -166,9 +182,23 @@ StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure)
   const double work_pressure = 0.5 * (pressure + next_pressure);
   load_speed_ += setup_.time_step * std::abs(pressure) * largest_load_ / setup_.density;
   std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
-  if constexpr (Law::state_based) find_dilatations(per_thread);
-  with_forces(per_thread, [&](Unit unit, ThreadEvents& events) {
-    step_unit(unit, pressure, work_pressure, kick, events);
+  if constexpr (Law::state_based) {
+    find_dilatations(per_thread);
+    Real* const field = state_->pressure.data();
+    state_->halo.start({&field, 1});
+    state_->halo.finish({&field, 1});
+  } else {
+    halo_.start(current());
+    halo_.finish(current());
+  }
+  parallel::for_each_share(threads_, parts_.size(), [&](int thread, std::size_t begin, std::size_t end) {
+    ThreadEvents& events = per_thread[static_cast<std::size_t>(thread)];
+    for (std::size_t p = begin; p < end; ++p) {
+      sum_part(parts_[p], events, [&](Unit unit, const BlockSums<Real>& sums) {
+        move_unit(unit, sums, pressure, work_pressure, kick, events);
+      });
+    }
+    look_for_rupture(events);
   });
   now_ = 1 - now_;
   first_kick_pending_ = false;

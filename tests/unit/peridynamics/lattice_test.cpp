@@ -85,6 +85,25 @@ TEST(BondFamilies, EveryBondHasItsExactOpposite) {
   }
 }
 
+TEST(BondFamilies, EarlierColumnsComeByColumnAndLaterOnesByRow) {
+  Parameters p = test::paper_vessel();
+  resolve(p);
+  const Lattice lattice = make_lattice(p);
+  const BondFamilies f = make_families(lattice);
+  for (std::size_t i = 0; i < lattice.section.size(); ++i) {
+    const auto own = static_cast<std::int32_t>(i);
+    const std::span<const Bond> family = f.of(i);
+    for (std::size_t b = 1; b < family.size(); ++b) {
+      const Bond &a = family[b - 1], &next = family[b];
+      if (next.other <= own) {
+        ASSERT_LT(std::pair(a.other, a.row_offset), std::pair(next.other, next.row_offset));
+      } else if (a.other > own) {
+        ASSERT_LT(std::pair(-a.row_offset, a.other), std::pair(-next.row_offset, next.other));
+      }
+    }
+  }
+}
+
 TEST(BondFamilies, CountOfAShortBodyIsCountedByHand) {
   // One column of 3 rows, horizon 2.5 spacings: bonds 0-1, 1-2, 0-2.
   Lattice line{{{0.0}, {0.0}, {1.0}}, 3, 1.0, 1.0, 2.5};

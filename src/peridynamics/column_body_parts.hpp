@@ -1,0 +1,193 @@
+/// ColumnBody: forces with each bond evaluated once for both of its ends, where one thread has both.
+///
+/// Owned columns and blocks are dealt out to threads in parts, as the body's are to ranks. In a part columns
+/// are done one after another, each from its first row on. A column evaluates its bonds to later columns of
+/// the part for both ends, and adds their forces to the sums of those; what bonds leave the part, or stay in
+/// the column, each end evaluates for itself. The digits are the same either way (bond_kernel.hpp), and each
+/// particle adds in the order of its family (bond_family.hpp): parts make no difference.
+///
+/// Rows beyond a part's ends are in another part, which does not add to this one. Their bonds into the part
+/// are evaluated here once more, for the end that is inside.
+#pragma once
+
+#include "peridynamics/column_body.hpp"
+
+namespace rhexis::peridynamics {
+
+template <class Law, class Real>
+void ColumnBody<Law, Real>::make_parts() {
+  const PointLayout& layout = domain_.layout();
+  std::vector<double> weights;
+  for (std::int32_t slot = 0; slot < layout.column_count; ++slot)
+    weights.push_back(static_cast<double>(first_bond_[slot + 1] - first_bond_[slot]));
+  const auto count = static_cast<int>(std::min<std::int64_t>(threads_, layout.column_count));
+  const parallel::Partition split = parallel::make_partition(
+      count, weights, layout.row_count, columns_beside_cut(setup_.lattice), setup_.families.reach);
+  std::size_t longest = 0;
+  for (int p = 0; p < count; ++p) {
+    Part<Real>& part = parts_.emplace_back();
+    part.first_slot = static_cast<std::int32_t>(split.first_column(p));
+    part.past_slot = static_cast<std::int32_t>(split.past_column(p));
+    part.first_row = split.first_row(p);
+    part.past_row = split.past_row(p);
+    for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
+      part.first_run.push_back(part.runs.size());
+      add_runs(part, slot);
+      longest = std::max(longest, bonds_of({slot, 0}).size());
+    }
+    part.first_run.push_back(part.runs.size());
+    part.words.resize(longest);
+    for (auto& force : part.force)
+      force = hwy::AllocateAligned<Real>(domain_.stride() * (part.first_run.size() - 1));
+  }
+  find_opposites();
+}
+
+/// Numbers of bonds to later columns in the families of those: among the bonds there to earlier columns,
+/// which are sorted (BondFamilies).
+template <class Law, class Real>
+void ColumnBody<Law, Real>::find_opposites() {
+  const PointLayout& layout = domain_.layout();
+  opposite_.resize(bonds_.size(), -1);
+  for (std::int32_t slot = 0; slot < layout.column_count; ++slot) {
+    const auto own = static_cast<std::int32_t>(global_column(slot));
+    for (std::size_t b = 0; b < bonds_of({slot, 0}).size(); ++b) {
+      const Bond& bond = reference_bond({slot, 0}, b);
+      if (bond.other <= own) continue;
+      const std::span<const Bond> family = setup_.families.of(static_cast<std::size_t>(bond.other));
+      const auto earlier = std::find_if(family.begin(), family.end(),
+                                        [&](const Bond& other) { return other.other >= bond.other; });
+      const auto found = std::lower_bound(family.begin(), earlier, std::pair(own, -bond.row_offset),
+                                          [](const Bond& other, const std::pair<std::int32_t, int>& wanted) {
+                                            return std::pair(other.other, other.row_offset) < wanted;
+                                          });
+      opposite_[static_cast<std::size_t>(first_bond_[slot]) + b] =
+          static_cast<std::int32_t>(found - family.begin());
+    }
+  }
+}
+
+/// Of a column: its bonds to columns before the part, be there any or not, then those from its own column on.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::add_runs(Part<Real>& part, std::int32_t slot) const {
+  const auto first = static_cast<std::int32_t>(global_column(part.first_slot));
+  const auto past = static_cast<std::int32_t>(global_column(part.past_slot - 1)) + 1;
+  const auto own = static_cast<std::int32_t>(global_column(slot));
+  const std::span<const Bond> family = setup_.families.of(static_cast<std::size_t>(own));
+  const auto bonds = static_cast<std::int32_t>(family.size());
+  std::int32_t b = 0;
+  while (b < bonds && family[static_cast<std::size_t>(b)].other < first) ++b;
+  part.runs.push_back({0, b, false});
+  const std::size_t start = part.runs.size();
+  for (; b < bonds; ++b) {
+    const std::int32_t other = family[static_cast<std::size_t>(b)].other;
+    if (other < own && other >= first) continue;
+    const bool both = other > own && other < past;
+    if (part.runs.size() > start && part.runs.back().both == both && part.runs.back().past == b) {
+      ++part.runs.back().past;
+    } else {
+      part.runs.push_back({b, b + 1, both});
+    }
+  }
+}
+
+/// Calls `use(word, unit, shift)` for the words, one or two in the part, of the other ends of bond `b` of
+/// rows [row, row + 16) of a column: bit 0 of those rows is bit `shift` of the word, which may be negative.
+template <class Law, class Real>
+template <class Use>
+void ColumnBody<Law, Real>::each_opposite(const Part<Real>& part, std::int32_t slot, std::int64_t row,
+                                          std::int32_t b, const Use& use) {
+  const Bond& bond = reference_bond({slot, 0}, static_cast<std::size_t>(b));
+  const auto there = static_cast<std::int32_t>(domain_.slot(bond.other));
+  const auto number = static_cast<std::size_t>(opposite_[static_cast<std::size_t>(first_bond_[slot] + b)]);
+  const std::int64_t row_there = row + bond.row_offset;  // at least -32
+  const std::int64_t first = (row_there + 2 * block_rows) / block_rows - 2;
+  for (std::int64_t block = first; block <= first + 1; ++block) {
+    if (block * block_rows < part.first_row || block * block_rows >= part.past_row) continue;
+    const Unit unit{there, static_cast<std::int32_t>(block)};
+    use(intact_[first_word(unit) + number], unit, static_cast<int>(row_there - block * block_rows));
+  }
+}
+
+/// Breaks bond `b` of rows [row, row + 16) of a column, those in `broken`, at their other ends in the part.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::break_other_ends(Part<Real>& part, std::int32_t slot, std::int64_t row,
+                                             std::int32_t b, std::uint16_t broken, ThreadEvents& events) {
+  each_opposite(part, slot, row, b, [&](std::uint16_t& word, Unit unit, int shift) {
+    const unsigned rows = shift >= 0 ? unsigned{broken} << shift : unsigned{broken} >> -shift;
+    const auto ending = static_cast<std::uint16_t>(word & rows);
+    word = static_cast<std::uint16_t>(word & ~ending);
+    if (ending != 0) note_broken(unit, std::popcount(ending), events);
+  });
+}
+
+/// Bonds from 16 rows beyond the part, from `row` on, into it.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot, std::int64_t row,
+                                            std::span<const BondRun> runs, ThreadEvents& events) {
+  std::uint16_t any = 0;
+  for (const BondRun& run : runs) {
+    for (std::int32_t b = run.first; run.both && b < run.past; ++b) {
+      unsigned rows = 0;
+      each_opposite(part, slot, row, b, [&](std::uint16_t word, Unit, int shift) {
+        rows |= shift >= 0 ? unsigned{word} >> shift : unsigned{word} << -shift;
+      });
+      part.words[static_cast<std::size_t>(b)] = static_cast<std::uint16_t>(rows);
+      any = static_cast<std::uint16_t>(any | rows);
+    }
+  }
+  if (any == 0) return;
+  BlockSums<Real> unused;
+  for (const BondRun& run : runs) {
+    if (!run.both) continue;
+    sum<false>(
+        view(part, slot, row, part.words.data()), {&run, 1}, unused,
+        [&](std::int32_t b, std::uint16_t broken) { break_other_ends(part, slot, row, b, broken, events); });
+  }
+}
+
+/// Calls `use(unit, sums)` for all units of a part, with the forces of all their bonds.
+template <class Law, class Real>
+template <class Use>
+void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, const Use& use) {
+  const PointLayout& layout = domain_.layout();
+  const bool below = periodic_ || layout.first_row + part.first_row > 0;
+  const bool above = periodic_ || layout.first_row + part.past_row < layout.rows;
+  const auto first_block = static_cast<std::int32_t>(part.first_row / block_rows);
+  const auto past_block = static_cast<std::int32_t>((part.past_row + block_rows - 1) / block_rows);
+  const auto nobody = [](std::int32_t, std::uint16_t) {};
+  for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
+    const BondRun& before = part.runs[part.first_run[slot - part.first_slot]];
+    // Bonds that leave the part add to rows beyond it, which nobody reads.
+    const BlockView<Real> below_part = view(part, slot, part.first_row - block_rows, nullptr);
+    for (Real* force : below_part.others)
+      std::fill_n(force, (past_block - first_block + 2) * block_rows, Real{0});
+    for (std::int32_t block = first_block; before.past > 0 && block < past_block; ++block) {
+      BlockSums<Real> sums;
+      const Unit unit{slot, block};
+      const BlockView<Real> here = view(part, slot, block * block_rows, intact_.data() + first_word(unit));
+      sum<false>(here, {&before, 1}, sums, nobody);
+      for (int k = 0; k < 3; ++k) std::copy_n(sums.force[k], block_rows, here.others[k]);
+      note_broken(unit, sums.broken, events);
+    }
+  }
+  for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
+    const std::size_t* const run = part.first_run.data() + (slot - part.first_slot);
+    const std::span<const BondRun> runs(part.runs.data() + run[0] + 1, part.runs.data() + run[1]);
+    if (below) add_from_beyond(part, slot, part.first_row - block_rows, runs, events);
+    for (std::int32_t block = first_block; block < past_block; ++block) {
+      BlockSums<Real> sums;
+      const Unit unit{slot, block};
+      const BlockView<Real> here = view(part, slot, block * block_rows, intact_.data() + first_word(unit));
+      for (int k = 0; k < 3; ++k) std::copy_n(here.others[k], block_rows, sums.force[k]);
+      sum<false>(here, runs, sums, [&](std::int32_t b, std::uint16_t broken) {
+        break_other_ends(part, slot, block * block_rows, b, broken, events);
+      });
+      note_broken(unit, sums.broken, events);
+      use(unit, sums);
+    }
+    if (above) add_from_beyond(part, slot, part.past_row, runs, events);
+  }
+}
+
+}  // namespace rhexis::peridynamics
