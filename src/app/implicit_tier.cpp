@@ -59,7 +59,13 @@ class ImplicitTier : public NetworkTier {
     s.inflow = flow->flow();
     s.highest_pressure = std::max(flow->inlet_pressure(), flow->outlet_pressure());
     s.lowest_pressure = std::min(flow->inlet_pressure(), flow->outlet_pressure());
-    sweep(*flow, s, say);
+    const bool sweeps = c_.network.statistics || c_.screening.top > 0;
+    // Where every vessel of a generation is alike one of them is computed: next to nothing.
+    if (!c_.tree.repeats()) {
+      s.flop = static_cast<double>(tree_.places()) *
+               (hemodynamics::flop_up + (sweeps ? hemodynamics::flop_down : 0));
+    }
+    if (sweeps) sweep(*flow, s, say);
     for (const std::string& name : c_.network.query) s.queries.push_back(query(*flow, name));
     show(*flow, s);
     return s;
@@ -86,7 +92,6 @@ class ImplicitTier : public NetworkTier {
 
   /// Statistics and screening, in one go.
   void sweep(const TreeFlow& flow, NetworkSolution& s, const Say& say) const {
-    if (!c_.network.statistics && c_.screening.top == 0) return;
     double spent = 0;
     {
       const Stopwatch watch(spent);

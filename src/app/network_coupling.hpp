@@ -29,6 +29,7 @@ class NetworkCoupling {
   double risk() const { return risk_; }               ///< of that vessel (screening/screening.hpp)
   double inflow() const { return solution_.inflow; }  ///< m3/s, of the network before the vessel ruptures
   const std::vector<double>& leaks() const { return solution_.leaks; }
+  std::optional<double> flop() const { return solution_.flop; }
   /// The vessel's opening as seen from the network, area in m2.
   coupling::Orifice orifice(double opening) const;
 

@@ -21,6 +21,7 @@ class NetworkRun : private RunBase {
   void draw();
   void say_summary();
   void say_screening();
+  std::optional<double> network_flop() const override { return solution_.flop; }
 
   std::unique_ptr<NetworkTier> tier_;
   NetworkSolution solution_;

@@ -47,6 +47,7 @@ struct NetworkSolution {
   double highest_pressure = 0, lowest_pressure = 0;  ///< Pa, of all junctions
   std::string solver;
   std::optional<std::int64_t> iterations, haematocrit_iterations;
+  std::optional<double> flop;  ///< operations, where they are counted
   std::optional<hemodynamics::TreeStatistics> statistics;
   std::vector<QueriedVessel> queries;
   std::optional<screening::Screening> screening;

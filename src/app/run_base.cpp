@@ -80,8 +80,10 @@ void RunBase::make_movie() {
   if (!problem.empty()) console_.warning("no movie: " + problem);
 }
 
-output::Performance RunBase::performance() const {
+output::Performance RunBase::performance() {
   output::Performance p;
+  if (const std::string name = output::processor_name(); !name.empty()) p.processor = name;
+  p.compiler = compiler();
   p.ranks = comm_.size();
   p.threads = parallel::thread_count();
   p.wall_s = seconds_now() - started_;
@@ -93,9 +95,23 @@ output::Performance RunBase::performance() const {
     if (spent_.solve > 0) p.bond_evaluations_per_s = static_cast<double>(*p.bond_evaluations) / spent_.solve;
     p.flop = 0.5 * static_cast<double>(*p.bond_evaluations) * peridynamics::flop_per_bond;
   }
+  if (const auto flop = network_flop()) p.flop = p.flop.value_or(0) + *flop;
+  if (const auto own = traffic()) {
+    p.exchange_s = comm_.all_reduce(own->seconds, parallel::Reduce::sum) / comm_.size();
+    p.exchange_bytes = comm_.all_reduce(own->bytes, parallel::Reduce::sum);
+  }
   p.peak_rss_bytes = comm_.all_reduce(output::peak_resident_bytes(), parallel::Reduce::sum);
   p.node_hours = *p.wall_s * comm_.node_count() / 3600;
+  p.energy_J = energy_of_nodes();
   return p;
+}
+
+/// Of all nodes; none where one of them does not tell. Collective.
+std::optional<double> RunBase::energy_of_nodes() {
+  const bool leads = comm_.leads_node();
+  const std::optional<double> here = energy_.read();
+  if (comm_.all_reduce(std::int64_t{leads && !here}, parallel::Reduce::sum) > 0) return {};
+  return comm_.all_reduce(leads ? *here : 0.0, parallel::Reduce::sum);
 }
 
 void say_title(Console& console, const Configuration& c) {

@@ -12,8 +12,10 @@
 #include "app/pictures.hpp"
 #include "app/run_options.hpp"
 #include "output/directory.hpp"
+#include "output/machine.hpp"
 #include "output/run_record.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/halo.hpp"
 
 namespace rhexis::app {
 
@@ -46,9 +48,13 @@ class RunBase {
   void finish_insitu();
   void make_movie();
   /// Collective.
-  output::Performance performance() const;
+  output::Performance performance();
   /// Directed bond evaluations so far, on this rank; none where no wall is simulated.
   virtual std::optional<std::int64_t> bond_evaluations() const { return {}; }
+  /// Of halos so far, on this rank; none where no wall is dealt out to ranks.
+  virtual std::optional<parallel::Traffic> traffic() const { return {}; }
+  /// Floating-point operations of a network so far, on all ranks; none where nobody counts.
+  virtual std::optional<double> network_flop() const { return {}; }
 
   /// First lines of the header: program, title, warnings, input.
   void say_input();
@@ -66,9 +72,11 @@ class RunBase {
   output::Results results_;
   Spent spent_;
   std::shared_ptr<Pictures> pictures_;
+  output::EnergyMeter energy_;
 
  private:
   void note_failure(const std::string& reason);
+  std::optional<double> energy_of_nodes();
 
   double started_;  ///< s, of the clock
 };

@@ -7,6 +7,8 @@ namespace rhexis::app {
 
 std::string version();
 std::string commit();
+/// "GNU 12.2.0, Release, AVX3_DL": compiler, kind of build, vectors.
+std::string compiler();
 /// Version, commit, compiler, libraries: the text of `rhexis --version`.
 std::string build_description();
 

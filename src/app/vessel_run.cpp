@@ -113,6 +113,10 @@ void VesselRun::open_results() {
   series_->write_reference(source_->reference_positions());
 }
 
+std::optional<double> VesselRun::network_flop() const {
+  return coupling_ != nullptr ? coupling_->flop() : std::nullopt;
+}
+
 bool VesselRun::pictures_due(long step, bool output_due) {
   if (!pictures_->pipeline) return false;
   const bool due =
@@ -126,6 +130,7 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   const double pressure = pressure_at(step) * vent_now_;
   {
     const Stopwatch watch(with_output ? spent_.output : spent_.insitu);
+    energy_.read();
     const peridynamics::Observation& observation = body_->observe(pressure);
     source_->moment(step, time_at(step), observation, {{"pressure", "Pa", pressure}});
   }

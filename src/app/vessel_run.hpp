@@ -50,6 +50,8 @@ class VesselRun : private RunBase {
   std::optional<std::int64_t> bond_evaluations() const override {
     return start_bond_evaluations_ + body_->bond_evaluations();
   }
+  std::optional<parallel::Traffic> traffic() const override { return body_->traffic(); }
+  std::optional<double> network_flop() const override;
   double pressure_at(long step) const;
   double time_at(long step) const { return static_cast<double>(step) * c_.time_step; }
 

@@ -1,8 +1,5 @@
 #include "output/run_record.hpp"
 
-#include <sys/resource.h>
-
-#include <fstream>
 #include <utility>
 
 #include "core/error.hpp"
@@ -59,7 +56,9 @@ void to_json(Json& json, const Results& results) {
 }
 
 void to_json(Json& json, const Performance& performance) {
-  json = Json::object({{"ranks", or_null(performance.ranks)},
+  json = Json::object({{"processor", or_null(performance.processor)},
+                       {"compiler", or_null(performance.compiler)},
+                       {"ranks", or_null(performance.ranks)},
                        {"threads", or_null(performance.threads)},
                        {"wall_s", or_null(performance.wall_s)},
                        {"solve_s", or_null(performance.solve_s)},
@@ -68,8 +67,11 @@ void to_json(Json& json, const Performance& performance) {
                        {"bond_evaluations", or_null(performance.bond_evaluations)},
                        {"bond_evaluations_per_s", or_null(performance.bond_evaluations_per_s)},
                        {"flop", or_null(performance.flop)},
+                       {"exchange_s", or_null(performance.exchange_s)},
+                       {"exchange_bytes", or_null(performance.exchange_bytes)},
                        {"peak_rss_bytes", or_null(performance.peak_rss_bytes)},
-                       {"node_hours", or_null(performance.node_hours)}});
+                       {"node_hours", or_null(performance.node_hours)},
+                       {"energy_J", or_null(performance.energy_J)}});
 }
 
 RunRecord::RunRecord(std::filesystem::path path, const std::string& version, const std::string& commit,
@@ -95,18 +97,6 @@ void RunRecord::write(const std::string& status, const Results& results, const P
     // A reason may quote a file name in any encoding; it must not cost us the record.
     write_atomically(path_, document_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
   });
-}
-
-std::int64_t peak_resident_bytes() {
-  // VmHWM, because ru_maxrss also counts the process that started this one.
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    std::int64_t kibibytes = 0;
-    if (word == "VmHWM:" && status >> kibibytes) return kibibytes * 1024;
-  }
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
 }  // namespace rhexis::output

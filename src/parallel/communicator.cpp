@@ -69,12 +69,16 @@ void Communicator::barrier() const {
   MPI_Barrier(handle_);
 }
 
-int Communicator::node_count() const {
+bool Communicator::leads_node() const {
   MPI_Comm node;
   MPI_Comm_split_type(handle_, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
   const bool leads = Communicator(node).is_root();
   MPI_Comm_free(&node);
-  return static_cast<int>(all_reduce(std::int64_t{leads}, Reduce::sum));
+  return leads;
+}
+
+int Communicator::node_count() const {
+  return static_cast<int>(all_reduce(std::int64_t{leads_node()}, Reduce::sum));
 }
 
 void Communicator::abort(int status) const {

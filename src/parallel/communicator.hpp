@@ -36,6 +36,8 @@ class Communicator {
   void barrier() const;
   /// Machines that the ranks run on. Collective.
   int node_count() const;
+  /// One rank of each node does.
+  bool leads_node() const;
   /// Ends the program on all ranks at once with `status`: for a failure that the others cannot learn of.
   [[noreturn]] void abort(int status) const;
   MPI_Comm handle() const { return handle_; }

@@ -43,6 +43,7 @@ HaloExchange<Real>::HaloExchange(Communicator comm, std::vector<HaloMessage> mes
 
 template <class Real>
 void HaloExchange<Real>::start(std::span<Real* const> field) {
+  const double started = MPI_Wtime();
   requests_.clear();
   const auto bytes = [](const std::vector<Real>& buffer) {
     return static_cast<int>(buffer.size() * sizeof(Real));
@@ -59,14 +60,18 @@ void HaloExchange<Real>::start(std::span<Real* const> field) {
     } else {
       MPI_Isend(outgoing_[m].data(), bytes(outgoing_[m]), MPI_BYTE, messages_[m].rank, 0, comm_.handle(),
                 &requests_.emplace_back());
+      traffic_.bytes += bytes(outgoing_[m]);
     }
   }
+  traffic_.seconds += MPI_Wtime() - started;
 }
 
 template <class Real>
 void HaloExchange<Real>::finish(std::span<Real* const> field) {
+  const double started = MPI_Wtime();
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   for (std::size_t m = 0; m < messages_.size(); ++m) unpack(incoming_[m], messages_[m].receive, field);
+  traffic_.seconds += MPI_Wtime() - started;
 }
 
 template class HaloExchange<float>;

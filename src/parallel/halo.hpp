@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct HaloMessage {
   std::vector<Run> send, receive;
 };
 
+/// What an exchange cost so far, on this rank.
+struct Traffic {
+  double seconds = 0;      ///< packing, sending, waiting, unpacking
+  std::int64_t bytes = 0;  ///< sent to other ranks
+
+  Traffic operator+(const Traffic& other) const { return {seconds + other.seconds, bytes + other.bytes}; }
+};
+
 /// Real is float or double. A message to the own rank (periodic ends) is a copy.
 template <class Real>
 class HaloExchange {
@@ -32,11 +41,14 @@ class HaloExchange {
   /// Waits and writes what came into the halo of `field`.
   void finish(std::span<Real* const> field);
 
+  const Traffic& traffic() const { return traffic_; }
+
  private:
   Communicator comm_;
   std::vector<HaloMessage> messages_;
   std::vector<std::vector<Real>> outgoing_, incoming_;
   std::vector<MPI_Request> requests_;
+  Traffic traffic_;
 };
 
 }  // namespace rhexis::parallel

@@ -16,6 +16,7 @@
 
 #include "core/field_view.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/halo.hpp"
 #include "peridynamics/bond_family.hpp"
 #include "peridynamics/heterogeneity.hpp"
 #include "peridynamics/thin_spots.hpp"
@@ -104,6 +105,9 @@ class Body {
   virtual std::int64_t bonds() const = 0;
   /// Directed bonds whose forces were summed in steps so far, on this rank.
   virtual std::int64_t bond_evaluations() const = 0;
+
+  /// Of halos so far, on this rank.
+  virtual parallel::Traffic traffic() const = 0;
 
   /// All that a restart needs beside displacement: leapfrog velocity (m/s), bond words and the work done so
   /// far. Words stand row by row as `bond_word_layout` says.

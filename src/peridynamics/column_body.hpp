@@ -128,6 +128,10 @@ class ColumnBody final : public Body {
   std::array<std::span<const double>, 3> displacement() const override { return {u_[0], u_[1], u_[2]}; }
   std::int64_t bonds() const override { return comm_.all_reduce(born_directed_, parallel::Reduce::sum) / 2; }
   std::int64_t bond_evaluations() const override { return bond_evaluations_; }
+  parallel::Traffic traffic() const override {
+    if constexpr (Law::state_based) return halo_.traffic() + state_->halo.traffic();
+    return halo_.traffic();
+  }
 
   std::array<double, 3> reference_position(std::int64_t column, std::int64_t row) const override {
     const PointLayout& l = domain_.layout();

@@ -19,14 +19,6 @@
 namespace rhexis::bench {
 namespace {
 
-/// Floating-point operations for an artery and its vein in subtree.cpp, where splits and lengths are random
-/// and veins follow arteries: split 4 (8 for each of half the places), length 6, table 16 and factor 1, sum 4
-/// ...
-constexpr double flop_up = 31;
-/// ... and those again, with flows and pressures 7, radius and length 17. (Executed, by callgrind: 31.7
-/// and 56.0.) What consumers do is not counted.
-constexpr double flop_down = flop_up + 24;
-
 /// Takes each vessel and does nothing with it.
 class Sink final : public hemodynamics::VesselConsumer {
  public:
@@ -61,7 +53,8 @@ void tree(benchmark::State& state, int generations, const std::string& way, int 
     } else {
       hemodynamics::gather_statistics(flow, test::in_vivo(), comm);
     }
-    return Sample{now(threads) - start, (way == "up" ? flop_up : flop_down) * places};
+    return Sample{now(threads) - start,
+                  (way == "up" ? hemodynamics::flop_up : hemodynamics::flop_down) * places};
   };
   report(state,
          measure(

@@ -44,9 +44,10 @@ TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
                                       "surface_m2", "highest_pressure_Pa", "lowest_pressure_Pa", "solver",
                                       "iterations", "queries", "screening"}));
   EXPECT_EQ(keys_of(json["performance"]),
-            (std::vector<std::string>{"ranks", "threads", "wall_s", "solve_s", "insitu_s", "output_s",
-                                      "bond_evaluations", "bond_evaluations_per_s", "flop", "peak_rss_bytes",
-                                      "node_hours"}));
+            (std::vector<std::string>{"processor", "compiler", "ranks", "threads", "wall_s", "solve_s",
+                                      "insitu_s", "output_s", "bond_evaluations", "bond_evaluations_per_s",
+                                      "flop", "exchange_s", "exchange_bytes", "peak_rss_bytes", "node_hours",
+                                      "energy_J"}));
   for (const Json& part : {json["results"], json["results"]["network"], json["performance"]}) {
     for (const auto& item : part.items()) EXPECT_TRUE(item.value().is_null() || item.key() == "network");
   }

@@ -1,0 +1,45 @@
+// What the machine tells of itself.
+#include "output/machine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "temporary_directory.hpp"
+
+namespace rhexis::output {
+namespace {
+
+void write(const std::filesystem::path& file, double value) {
+  std::filesystem::create_directories(file.parent_path());
+  std::ofstream(file) << static_cast<std::int64_t>(value) << '\n';
+}
+
+TEST(EnergyMeter, AddsPackagesAndKnowsThatCountersStartAnew) {
+  const test::TemporaryDirectory folder;
+  if (!parallel::Communicator::world().is_root()) return;  // one folder for all
+  for (const char* zone : {"intel-rapl:0", "intel-rapl:1", "intel-rapl:0:0", "intel-rapl"}) {
+    write(folder / zone / "energy_uj", 900e6);
+    write(folder / zone / "max_energy_range_uj", 1000e6);
+  }
+  EnergyMeter meter(folder.path());
+  EXPECT_EQ(meter.read(), 0);
+  write(folder / "intel-rapl:0/energy_uj", 950e6);
+  write(folder / "intel-rapl:0:0/energy_uj", 940e6);  // within the package
+  EXPECT_EQ(meter.read(), 50);
+  write(folder / "intel-rapl:0/energy_uj", 20e6);
+  write(folder / "intel-rapl:1/energy_uj", 905e6);
+  EXPECT_EQ(meter.read(), 50 + 70 + 5);
+}
+
+TEST(EnergyMeter, SaysNothingWithoutCounters) {
+  EXPECT_EQ(EnergyMeter("/nowhere").read(), std::nullopt);
+}
+
+TEST(Machine, HasMemoryAndPerhapsAName) {
+  EXPECT_GT(peak_resident_bytes(), 1'000'000);
+  EXPECT_EQ(processor_name().find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rhexis::output
