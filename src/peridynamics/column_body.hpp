@@ -276,7 +276,8 @@ class ColumnBody final : public Body {
   void sum_part(Part<Real>& part, ThreadEvents& events, const Use& use);
   double breaking_energy(Unit unit, const BondConstants<Real>& bond, std::uint16_t broken) const;
   std::pair<int, int> free_rows(Unit unit, int component) const;
-  void family_volumes(Unit unit, double (&intact)[block_rows], double (&whole)[block_rows]) const;
+  std::uint16_t broken(Unit unit, std::size_t b) const;
+  void find_damage(Unit unit, double (&damage)[block_rows]) const;
   bool has_ruptured(Unit unit) const;
   static void note_broken(Unit unit, int broken, ThreadEvents& events);
   void look_for_rupture(ThreadEvents& events) const;
@@ -311,6 +312,7 @@ class ColumnBody final : public Body {
   std::vector<Real> half_stretch_, half_stiffness_;  ///< padded (see LocalProperties); empty: a uniform wall
   std::vector<char> absent_;               ///< padded, 1 where thin spots leave no particle; empty: nowhere
   std::vector<double> load_share_;         ///< [particles] relative to the whole wall's; empty: 1
+  std::vector<double> family_volume_;      ///< [particles] sum of V_j / spacing^3, as born
   std::optional<States<Real>> state_;      ///< of state-based laws
   std::vector<Unit> interior_, boundary_;  ///< units that read no halo, units that do
   std::vector<Part<Real>> parts_;          ///< of threads

@@ -31,11 +31,10 @@ double ColumnBody<Law, Real>::fracture_energy(Unit unit) const {
   const double s0 = setup_.critical_stretch;
   const double per_weight = 0.25 * energy_scale() * s0 * s0 * setup_.lattice.volume(global_column(unit.slot));
   const auto bonds = bonds_of(unit);
-  const std::uint16_t* words = intact_.data() + first_word(unit);
   double fracture = 0;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const auto broken = static_cast<std::uint16_t>(born(unit, b) & ~words[b]);
-    fracture += breaking_energy(unit, bonds[b], broken) * double{bonds[b].energy_weight};
+    if (const std::uint16_t rows = broken(unit, b); rows != 0)
+      fracture += breaking_energy(unit, bonds[b], rows) * double{bonds[b].energy_weight};
   }
   return per_weight * fracture;
 }
@@ -70,16 +69,16 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
       speed2 += v * v;
     }
   }
-  // Counting what is left of families costs several times what their forces do.
+  // Looking for what is broken takes as long as the forces do.
   const bool unbroken = intact_directed_ == born_directed_ && sums.broken == 0;
-  double intact[block_rows], whole[block_rows];
-  if (!unbroken) family_volumes(unit, intact, whole);
+  double damage_of[block_rows] = {};
+  if (!unbroken) find_damage(unit, damage_of);
   for (int lane = 0; lane < rows; ++lane) {
     double energy = energy_scale() * static_cast<double>(sums.energy[lane]);
     if constexpr (Law::state_based) {
       energy += dilatation_energy(state_->dilatation[first + lane], padded_place(unit) + lane);
     }
-    const double damage = !unbroken && whole[lane] > 0 ? 1 - intact[lane] / whole[lane] : 0;
+    const double damage = damage_of[lane];
     observation_.strain_energy_density[first + lane] = energy;
     observation_.damage[first + lane] =
         is_absent(unit, lane) ? std::numeric_limits<double>::quiet_NaN() : damage;

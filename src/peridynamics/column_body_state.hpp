@@ -29,6 +29,7 @@ void ColumnBody<Law, Real>::make_bonds() {
     }
     first_bond_.push_back(static_cast<std::int64_t>(bonds_.size()));
   }
+  family_volume_.resize(static_cast<std::size_t>(layout.local_count()));
   intact_.resize(bonds_.size() * static_cast<std::size_t>(domain_.blocks()));
   for (std::int32_t slot = 0; slot < layout.column_count; ++slot) {
     for (std::int32_t block = 0; block < domain_.blocks(); ++block) {
@@ -37,6 +38,9 @@ void ColumnBody<Law, Real>::make_bonds() {
         const std::uint16_t word = born(unit, b);
         intact_[first_word(unit) + b] = word;
         intact_directed_ += std::popcount(word);
+        for (unsigned rows = word; rows != 0; rows &= rows - 1)
+          family_volume_[particle(unit) + static_cast<std::size_t>(std::countr_zero(rows))] +=
+              double{bonds_of(unit)[b].volume};
       }
     }
   }

@@ -60,34 +60,37 @@ std::pair<int, int> ColumnBody<Law, Real>::free_rows(Unit unit, int component) c
   return {local(first), local(past)};
 }
 
-/// Sums of V_j / spacing^3 over each row's unbroken bonds and over all it was born with.
+/// Rows in which bond `b` of a unit was born and is broken.
 template <class Law, class Real>
-void ColumnBody<Law, Real>::family_volumes(Unit unit, double (&intact)[block_rows],
-                                           double (&whole)[block_rows]) const {
-  std::fill_n(intact, block_rows, 0.0);
-  std::fill_n(whole, block_rows, 0.0);
-  const auto bonds = bonds_of(unit);
-  const std::uint16_t* words = intact_.data() + first_word(unit);
-  for (std::size_t b = 0; b < bonds.size(); ++b) {
-    const unsigned now = words[b];
-    const unsigned first = born(unit, b);
-    const double volume = bonds[b].volume;
-    for (int lane = 0; lane < block_rows; ++lane) {
-      intact[lane] += (now >> lane & 1u) ? volume : 0.0;
-      whole[lane] += (first >> lane & 1u) ? volume : 0.0;
-    }
-  }
+std::uint16_t ColumnBody<Law, Real>::broken(Unit unit, std::size_t b) const {
+  const std::uint16_t word = intact_[first_word(unit) + b];
+  constexpr std::uint16_t all = 0xFFFF;
+  return word == all ? std::uint16_t{0} : static_cast<std::uint16_t>(born(unit, b) & ~word);
 }
 
-/// Eq. (6) reaches `rupture_damage` somewhere in the unit.
+/// Eq. (6) of each row: the share of its family's volume that it is no longer bonded to; 0 for a particle
+/// that was born without bonds.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::find_damage(Unit unit, double (&damage)[block_rows]) const {
+  std::fill_n(damage, block_rows, 0.0);
+  const auto bonds = bonds_of(unit);
+  for (std::size_t b = 0; b < bonds.size(); ++b) {
+    const unsigned rows = broken(unit, b);
+    if (rows == 0) continue;
+    const double volume = bonds[b].volume;
+    for (int lane = 0; lane < block_rows; ++lane) damage[lane] += (rows >> lane & 1u) ? volume : 0.0;
+  }
+  const double* whole = family_volume_.data() + particle(unit);
+  for (int lane = 0; lane < domain_.rows_in(unit.block); ++lane)
+    damage[lane] = whole[lane] > 0 ? damage[lane] / whole[lane] : 0;
+}
+
+/// Damage reaches `rupture_damage` somewhere in the unit.
 template <class Law, class Real>
 bool ColumnBody<Law, Real>::has_ruptured(Unit unit) const {
-  double intact[block_rows], whole[block_rows];
-  family_volumes(unit, intact, whole);
-  for (int lane = 0; lane < domain_.rows_in(unit.block); ++lane) {
-    if (whole[lane] > 0 && 1 - intact[lane] / whole[lane] >= rupture_damage) return true;
-  }
-  return false;
+  double damage[block_rows];
+  find_damage(unit, damage);
+  return *std::max_element(damage, damage + domain_.rows_in(unit.block)) >= rupture_damage;
 }
 
 template <class Law, class Real>

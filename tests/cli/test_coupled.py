@@ -1,127 +1,18 @@
-"""A vessel of a network, coupled, as a user meets it: wrong input, load, bleeding, ranks, restarts.
+"""A vessel of a network, coupled, as a user meets it: wrong input, load, restarts.
 
 Run by ctest as: test_coupled.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
 """
 
-import csv
-import json
 import math
 import os
-import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
-from concurrent.futures import ThreadPoolExecutor
 
 import h5py
 import numpy as np
 
-RHEXIS, *MPIRUN = sys.argv[1:]
+from coupled_case import ARTERY, BED, BLOOD_DENSITY, FEEDER, JUNCTIONS, MMHG, ONE_WAY, TREE, TWO_WAY, VESSELS, CoupledCase, at_once, changed
 
-MMHG = 133.322387415  # Pa
-BLOOD_VISCOSITY, BLOOD_DENSITY, DISCHARGE = 3.5e-3, 1060, 0.62  # Pa s, kg/m3: the program's defaults
-
-# Three vessels in a row, the middle one of 144 columns x 24 rows: a second for a run.
-JUNCTIONS = """\
-id,x [mm],y [mm],z [mm],pressure [mmHg]
-heart,-100,0,0,200
-neck,-2,10,0,
-brain,4,20,0,
-vein,50,0,0,20
-"""
-VESSELS = """\
-id,from,to,radius [mm],length [mm],wall_thickness [mm]
-feeder,heart,neck,1.2,300,0.4
-artery,neck,brain,1.5,6,0.75
-bed,brain,vein,0.3,50,0.1
-"""
-TWO_WAY = """\
-[scene]
-model = "coupled"
-
-[network]
-source = "file"
-files = ["j.csv", "v.csv"]
-
-[blood]
-viscosity_law = "constant"
-
-[coupling]
-vessel = "artery"
-mode = "two_way"
-window = "20 us"
-
-[material]
-critical_stretch = 0.015
-
-[discretisation]
-cross_section = "lattice"
-spacing = "250 um"
-
-[load]
-layer = "consistent"
-schedule = "smooth_ramp"
-ramp_time = "0.8 ms"
-
-[time]
-step = "5 us"
-end = "1.6 ms"
-
-[output]
-every_steps = 4
-precision = "double"
-"""
-TREE = """\
-[scene]
-model = "coupled"
-
-[tree]
-generations = 12
-root_radius = "2 mm"
-asymmetry = 0.9
-least_asymmetry = 0.4
-
-[wall]
-artery_ratio = 0.75
-
-[flow]
-inlet_pressure = "200 mmHg"
-outlet_pressure = "5 mmHg"
-
-[coupling]
-vessel = "artery.0"
-
-[discretisation]
-particles = 3200
-
-[time]
-end = "0.2 ms"
-
-[output]
-every_steps = 50
-"""
-
-
-def changed(text, key, new):
-    """`text` with another line for the one of `key`."""
-    lines = text.splitlines()
-    (place,) = (i for i, line in enumerate(lines) if line.startswith(f"{key} ="))
-    return "\n".join([*lines[:place], new, *lines[place + 1:]]) + "\n"
-
-
-ONE_WAY = changed(TWO_WAY, "mode", "")
-TORN_TREE = changed(TREE, "vessel", 'vessel = "artery.0"\nmode = "two_way"\nwindow = "20 us"\nresolution = "paper"')
-TORN_TREE = changed(TORN_TREE, "end", 'end = "0.8 ms"') + """\
-[load]
-layer = "consistent"
-schedule = "smooth_ramp"
-ramp_time = "0.2 ms"
-[material]
-critical_stretch = 0.016
-"""
-TORN_TREE = TORN_TREE.replace("artery_ratio = 0.75", "artery_ratio = 0.5").replace("[wall]", "length_ratio = 4\n[wall]")
-TORN_TREE = TORN_TREE.replace("[discretisation]", '[discretisation]\ncross_section = "lattice"')
 SHORT = {"j.csv": JUNCTIONS, "v.csv": VESSELS.replace(",6,0.75", ",0.3,0.75")}
 PLACELESS = "id,pressure [mmHg]\nheart,200\nneck,\nbrain,\nvein,20\n"
 CUFF = '[body]\ncompression = "10 mmHg"\n'
@@ -164,90 +55,7 @@ WRONG = [
 ]
 
 
-def resistance(radius, length):
-    return 8 * BLOOD_VISCOSITY * length / (math.pi * radius**4)
-
-
-FEEDER, ARTERY, BED = resistance(1.2e-3, 0.3), resistance(1.5e-3, 6e-3), resistance(0.3e-3, 0.05)
-
-
-def bleeding(share, factor, opening, outside, weight):
-    """The artery as a tube of two halves, with a hole between them, fed through the feeder and drained by the bed.
-
-    `share` of all pressures acts; `factor` is on the artery's resistance; `outside` and `weight` (Eq. 7: tension and
-    compression; P_g) hold at its beginning, middle and end. Net pressures there, leak, inflow, outflow.
-    """
-    heart, vein = 200 * MMHG * share, 20 * MMHG * share
-    outside, weight = [share * p for p in outside], [share * p for p in weight]
-    up, down = FEEDER + factor * ARTERY / 2, factor * ARTERY / 2 + BED
-
-    def leak(p):
-        return DISCHARGE * opening * math.sqrt(2 * max(p + weight[1] - outside[1], 0) / BLOOD_DENSITY)
-
-    low, high = -heart, heart
-    for _ in range(200):
-        p = (low + high) / 2
-        low, high = (p, high) if (heart - p) / up - (p - vein) / down > leak(p) else (low, p)
-    flows = (heart - p) / up, (vein - p) / down
-    places = heart - flows[0] * FEEDER, p, vein - flows[1] * BED
-    net = [max(p + g - o, 0) for p, g, o in zip(places, weight, outside)]  # collapse is not modelled
-    return net, leak(p), sum(max(q, 0) for q in flows), sum(max(-q, 0) for q in flows)
-
-
-def at_once(function, argument_lists):
-    """What `function` returns for each: starting a program is mostly waiting."""
-    with ThreadPoolExecutor(4) as pool:
-        return list(pool.map(lambda arguments: function(*arguments), argument_lists))
-
-
-class Coupled(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="rhexis_coupled_")
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-        self.write({"j.csv": JUNCTIONS, "v.csv": VESSELS})
-
-    def write(self, files):
-        for name, text in files.items():
-            (self.path / name).write_text(text, encoding="utf-8")
-
-    def rhexis(self, *arguments, ranks=None, threads=None, cwd=None):
-        launcher = [*MPIRUN, "-n", str(ranks)] if ranks else []
-        environment = {**os.environ, "OMP_NUM_THREADS": str(threads)} if threads else None
-        return subprocess.run([*launcher, RHEXIS, *arguments], cwd=cwd or self.path, capture_output=True, text=True, timeout=300,
-                              stdin=subprocess.DEVNULL, env=environment, check=False)
-
-    def run_well(self, scene, folder, *overrides, more=(), **launch):
-        """Runs `scene` into `folder`; its results without what differs from run to run: times."""
-        self.write({f"{folder}.toml": scene})
-        settings = [word for override in overrides for word in ("--set", override)]
-        result = self.rhexis("run", f"{folder}.toml", "--quiet", "-o", folder, *settings, *more, **launch)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        record = json.loads((self.path / folder / "run.json").read_text())
-        self.assertEqual(record["status"], "completed")
-        for key in ("network_s", "exchange_s"):
-            (record["results"]["coupling"] or {}).pop(key, None)
-        return record["results"]
-
-    def rows(self, file):
-        with open(self.path / file, encoding="utf-8") as stream:
-            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
-
-    def assert_close(self, a, b, relative, message=None):
-        self.assertLessEqual(abs(a - b), relative * abs(b), (a, b, message))
-
-    def assert_same_data(self, a, b):
-        """Every data set of two HDF5 files, bit for bit."""
-        with h5py.File(self.path / a) as one, h5py.File(self.path / b) as other:
-            names = [], []
-            one.visit(names[0].append)
-            other.visit(names[1].append)
-            self.assertEqual(*names)
-            data = [name for name in names[0] if isinstance(one[name], h5py.Dataset) and not name.endswith("unplanned")]
-            self.assertGreater(len(data), 5)
-            for name in data:
-                self.assertEqual(one[name][()].tobytes(), other[name][()].tobytes(), name)
-
+class Coupled(CoupledCase):
     # -- wrong input ---------------------------------------------------------------------------------------------
 
     def refuse(self, case, ranks, *command):
@@ -386,100 +194,7 @@ class Coupled(unittest.TestCase):
         self.assertGreater(there[:12].mean() / there[12:].mean(), 1.3)
         np.testing.assert_allclose(there, back[::-1], atol=1e-4 * there.max())
 
-    # -- two ways ------------------------------------------------------------------------------------------------
-
-    def test_bleeding_agrees_with_two_resistances_and_an_orifice(self):
-        """In every row, with a cuff on the artery's end, tissue all around, and weight; and the wall feels it."""
-        results = self.run_well(TWO_WAY, "out", "body.tissue_tension=3 mmHg", "body.compression=6 mmHg", "body.compression_from=2 mm",
-                                "flow.acceleration=['0 m/s2','-9.81 m/s2','0 m/s2']", "output.fields=[]")
-        surroundings = [3 * MMHG, 3 * MMHG, 9 * MMHG], [-9.81 * BLOOD_DENSITY * y for y in (10e-3, 15e-3, 20e-3)]
-        rows, history = self.rows("out/coupling.csv"), self.rows("out/history.csv")
-        self.assertEqual([row["time_s"] for row in rows], [row["time_s"] for row in history])
-        self.assertEqual(len(rows), 81)
-        closed = bleeding(1, 1, 0, *surroundings)[0]
-        largest, factor, leaked, before = max(closed), 1, 0, None
-        for row, wall in zip(rows, history):
-            share = 0.5 - 0.5 * math.cos(math.pi * min(row["time_s"] / 0.8e-3, 1))
-            self.assertAlmostEqual(row["schedule"], share, delta=1e-14)
-            net, leak, inflow, outflow = bleeding(share, row["resistance_factor"], row["opening_m2"], *surroundings)
-            found = [row[f"net_pressure_{place}_Pa"] for place in ("from", "middle", "to")]
-            for a, b in zip(found, net):
-                self.assertAlmostEqual(a, b, delta=1e-9 * 200 * MMHG, msg=row)
-            for key, expected in (("leak", leak), ("inflow", inflow), ("outflow", outflow)):
-                self.assertAlmostEqual(row[f"{key}_m3_s"], expected, delta=1e-9 * inflow, msg=row)
-            self.assertLessEqual(row["imbalance"], 1e-10)
-            self.assertAlmostEqual(row["inflow_m3_s"] - row["outflow_m3_s"], row["leak_m3_s"], delta=1e-10 * inflow)
-            # The wall has the pressure of the exchange before, raised by the schedule, and the opening of now.
-            self.assertAlmostEqual(wall["pressure_Pa"], share * largest, delta=1e-12 * 200 * MMHG)
-            self.assertEqual((wall["opening_m2"], wall["leak_m3_s"]), (row["opening_m2"], row["leak_m3_s"]))
-            largest = max(found) / share if share else largest
-            # The lumen widens, if less at held ends; from rupture on it counts as it was then.
-            if row["time_s"] < results["rupture_onset_s"]:
-                widest = 1 - (1 + wall["max_displacement_m"] / 1.5e-3) ** -4
-                factor = row["resistance_factor"]
-                self.assertTrue(0.2 * widest <= 1 - factor <= widest, row)
-            elif row["time_s"] > results["rupture_onset_s"] + 20e-6:
-                self.assertEqual(row["resistance_factor"], rows[-1]["resistance_factor"])
-            leaked += before["leak_m3_s"] * (row["time_s"] - before["time_s"]) if before else 0
-            before = row
-        # It tore and bled as much as the feeder lets through, and that relieved it.
-        self.assertLess(rows[-1]["net_pressure_middle_Pa"], 0.2 * closed[1])
-        self.assert_close(rows[-1]["leak_m3_s"], 200 * MMHG / FEEDER, 0.1)
-        c = results["coupling"]
-        self.assertEqual((c["windows"], c["mode"], c["leak_m3_s"]), (81, "two_way", rows[-1]["leak_m3_s"]))
-        self.assert_close(c["leaked_m3"], leaked, 1e-12)
-        self.assertEqual(c["max_imbalance"], max(row["imbalance"] for row in rows))
-        self.assertEqual(c["net_pressure_at_end_Pa"], found)
-        for first, expected in zip(c["net_pressure_Pa"], closed, strict=True):
-            self.assertAlmostEqual(first, expected, delta=1e-7)
-        self.assertLess(abs(results["energy_drift"]), 1e-3)
-
-    def test_finer_windows_converge(self):
-        """With the first order where the wall bears its load. Fragments are chaotic: of a torn one, what it leaked settles."""
-        # Resistances alike, so that the lumen matters.
-        self.write({"soft.csv": VESSELS.replace("1.2,300", "1.5,10").replace("0.3,50", "1.5,3")})
-        soft = ["network.files=['j.csv', 'soft.csv']", "material.young_modulus=100 kPa", "material.critical_stretch=2", "time.step=10 us",
-                "time.end=2.56 ms", "load.ramp_time=2.56 ms"]
-        windows = 80, 40, 20  # us
-        runs = at_once(self.run_well, [(TWO_WAY, f"{name}_{window}", f"coupling.window={window} us", "output.every_steps=256", *settings)
-                                       for name, settings in (("soft", soft), ("torn", [])) for window in windows])
-        self.assertEqual([run["coupling"]["windows"] for run in runs[:3]], [2560 // window + 1 for window in windows])
-        factors = [self.rows(f"soft_{window}/coupling.csv")[-1]["resistance_factor"] for window in windows]
-        self.assertLess(factors[2], 0.7)  # a third of its resistance is gone
-        for coarse, middle, fine in (factors, [run["max_displacement_m"] for run in runs[:3]],
-                                     *zip(*(run["coupling"]["net_pressure_at_end_Pa"] for run in runs[:3]))):
-            self.assertTrue(0.3 < (fine - middle) / (middle - coarse) < 0.7, (coarse, middle, fine))
-        coarse, middle, fine = (run["coupling"]["leaked_m3"] for run in runs[3:])
-        self.assertLess(abs(fine - middle), 0.7 * abs(middle - coarse), (coarse, middle, fine))
-        self.assert_close(middle, fine, 0.04)
-
-    def test_a_window_by_default_is_never_shorter_than_a_step(self):
-        results = self.run_well(changed(TWO_WAY, "window", ""), "out", "time.end=0.2 ms")  # 40 steps
-        self.assertEqual(results["coupling"]["windows"], 41)
-
-    # -- tiers, ranks, threads, restarts -------------------------------------------------------------------------
-
-    def test_tiers_agree(self):
-        runs = at_once(self.run_well, [(TORN_TREE, tier, f"network.tier={tier}", "material.young_modulus=1 MPa", "material.critical_stretch=2")
-                                       for tier in ("implicit", "explicit")])
-        self.assertLess(self.rows("implicit/coupling.csv")[-1]["resistance_factor"], 0.99)
-        for one, other in zip(*(run["coupling"]["net_pressure_at_end_Pa"] for run in runs), strict=True):
-            self.assert_close(one, other, 1e-9)
-
-    def test_ranks_and_threads_change_nothing(self):
-        """A vessel of a file's network and one of a tree, that tear and bleed into it."""
-        for name, scene, table, first, second in (("file", changed(TWO_WAY, "end", 'end = "1 ms"'), "vessels.csv", (None, 1), (2, 2)),
-                                                  ("tree", TORN_TREE, "generations.csv", (None, 2), (2, 1))):
-            with self.subTest(name):
-                one, other = (self.run_well(scene, folder, "output.every_steps=40", ranks=ranks, threads=threads)
-                              for folder, (ranks, threads) in (("one", first), ("other", second)))
-                self.assertGreater(one["coupling"]["leaked_m3"], 0)
-                self.assertLessEqual(one["coupling"]["max_imbalance"], 1e-10)
-                self.assertEqual(other, one)
-                for file in ("history.csv", "coupling.csv", table):
-                    self.assertEqual((self.path / "one" / file).read_bytes(), (self.path / "other" / file).read_bytes(), file)
-                for file in ("particles.h5", "network.h5"):
-                    self.assert_same_data(f"one/{file}", f"other/{file}")
+    # -- restarts ------------------------------------------------------------------------------------------------
 
     def test_restart_goes_on_bit_by_bit(self):
         results = self.run_well(ONE_WAY, "whole", "time.end=1 ms", "output.checkpoint_every=130")
