@@ -199,12 +199,25 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
   if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
   if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
   Sums<D> f = sum;
-  for (std::int32_t b = run.first; b < run.past; ++b) {
-    const BondConstants<Real>& bond = block.bonds[static_cast<std::size_t>(b)];
+  // Two bonds at a time, the next one's stretch beside this one's force: what a processor can hold of
+  // instructions that wait for others is soon full, and one bond is a long chain of them.
+  const auto next_unbroken = [&](std::int32_t b) {
+    while (b < run.past && block.intact[b] == 0) ++b;
+    return b;
+  };
+  const auto bond_of = [&](std::int32_t b) -> const BondConstants<Real>& {
+    return block.bonds[static_cast<std::size_t>(b)];
+  };
+  std::int32_t b = next_unbroken(run.first);
+  if (b == run.past) return;
+  Deformed<V> now = ends.deformed(d, bond_of(b));
+  for (std::int32_t next = b; b < run.past; b = next) {
+    const BondConstants<Real>& bond = bond_of(b);
     std::uint16_t& word = block.intact[b];
-    if (word == 0) continue;
+    const auto [y_x, y_y, y_z, t] = now;
+    next = next_unbroken(b + 1);
+    if (next < run.past) now = ends.deformed(d, bond_of(next));
     [[maybe_unused]] const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
-    const auto [y_x, y_y, y_z, t] = ends.deformed(d, bond);
     const std::uint16_t broken = clear(d, test.fails(d, law, bond, t), lane, word);
     if (HWY_UNLIKELY(broken != 0)) {
       sums.broken += std::popcount(broken);
