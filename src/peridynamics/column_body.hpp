@@ -106,6 +106,7 @@ class ColumnBody final : public Body {
     for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c) {
       largest_load_ = std::max(largest_load_, std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
     }
+    for (int k = 0; k < 3; ++k) free_rows_.push_back(peridynamics::free_rows(setup_, k));
     make_local_properties();
     make_thin_spots();
     make_bonds();
@@ -334,8 +335,9 @@ class ColumnBody final : public Body {
   /// m/s, what the load so far would have given a loose particle. One that is four times as fast, and moves
   /// more than two spacings a step besides, was not moved by forces of the model: the step is unstable.
   double load_speed_ = 0;
-  std::vector<double> profile_;  ///< [rows of the whole body]
-  double largest_load_ = 0;      ///< 1/m, of the pressure layer
+  std::vector<double> profile_;                                   ///< [rows of the whole body]
+  double largest_load_ = 0;                                       ///< 1/m, of the pressure layer
+  std::vector<std::pair<std::int64_t, std::int64_t>> free_rows_;  ///< of the whole body, along each axis
   Observation observation_;
   ThreadTotals observed_{1.0};
 };

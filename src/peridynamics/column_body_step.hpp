@@ -52,7 +52,7 @@ void ColumnBody<Law, Real>::sum(const BlockView<Real>& block, std::span<const Bo
 /// Rows of a unit, [first, past), whose motion along axis `component` the ends do not hold.
 template <class Law, class Real>
 std::pair<int, int> ColumnBody<Law, Real>::free_rows(Unit unit, int component) const {
-  const auto [first, past] = peridynamics::free_rows(setup_, component);
+  const auto [first, past] = free_rows_[static_cast<std::size_t>(component)];
   const std::int64_t begin = domain_.layout().first_row + unit.block * block_rows;
   const auto local = [&](std::int64_t row) {
     return static_cast<int>(std::clamp<std::int64_t>(row - begin, 0, domain_.rows_in(unit.block)));
