@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <vector>
 
 #include "temporary_directory.hpp"
 
@@ -36,8 +37,17 @@ TEST(EnergyMeter, SaysNothingWithoutCounters) {
   EXPECT_EQ(EnergyMeter("/nowhere").read(), std::nullopt);
 }
 
-TEST(Machine, HasMemoryAndPerhapsAName) {
-  EXPECT_GT(peak_resident_bytes(), 1'000'000);
+TEST(PeakResidentBytes, GrowsWithWhatIsTouched) {
+  const std::int64_t before = peak_resident_bytes();
+  std::vector<char> memory(64 << 20);
+  // Volatile, or a compiler may see that nobody reads it and leave it all out.
+  for (std::size_t i = 0; i < memory.size(); i += 1024) *static_cast<volatile char*>(&memory[i]) = 1;
+  EXPECT_GT(before, 1 << 20);
+  // Memory held earlier and given back may serve a part of it.
+  EXPECT_GT(peak_resident_bytes() - before, 32 << 20);
+}
+
+TEST(ProcessorName, IsALineAtMost) {
   EXPECT_EQ(processor_name().find('\n'), std::string::npos);
 }
 

@@ -84,15 +84,5 @@ TEST(RunRecord, AFolderThatIsNotThereIsARunErrorOnAllRanks) {
   EXPECT_NE(message.find("no/run.json: cannot write the file"), std::string::npos) << message;
 }
 
-TEST(PeakResidentBytes, GrowsWithWhatIsTouched) {
-  const std::int64_t before = output::peak_resident_bytes();
-  std::vector<char> memory(64 << 20);
-  // Volatile, or a compiler may see that nobody reads it and leave it all out.
-  for (std::size_t i = 0; i < memory.size(); i += 1024) *static_cast<volatile char*>(&memory[i]) = 1;
-  EXPECT_GT(before, 1 << 20);
-  // Memory held earlier and given back may serve a part of it.
-  EXPECT_GT(output::peak_resident_bytes() - before, 32 << 20);
-}
-
 }  // namespace
 }  // namespace rhexis
