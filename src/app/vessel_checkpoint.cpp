@@ -59,8 +59,10 @@ void VesselRun::write_checkpoint(long step) {
   file.write("frame_phase", std::int64_t{saved.frame_phase});
   file.write("wrapped", std::int64_t{saved.wrapped});
   file.write("first_kick_pending", std::int64_t{saved.first_kick_pending});
-  file.write("external_work", saved.external_work);
-  file.write("released_energy", saved.released_energy);
+  for (std::size_t i = 0; i < 2; ++i) {
+    file.write(fmt::format("external_work_{}", i), saved.external_work[i]);
+    file.write(fmt::format("released_energy_{}", i), saved.released_energy[i]);
+  }
   file.write("load_speed", saved.load_speed);
   file.write("vent", vent_now_);
   file.write("first_bond_break", results_.first_bond_break_s.value_or(absent));
@@ -107,8 +109,10 @@ void VesselRun::read_checkpoint() {
   saved.wrapped = wrapped != 0;
   file.read("first_kick_pending", pending);
   saved.first_kick_pending = pending != 0;
-  file.read("external_work", saved.external_work);
-  file.read("released_energy", saved.released_energy);
+  for (std::size_t i = 0; i < 2; ++i) {
+    file.read(fmt::format("external_work_{}", i), saved.external_work[i]);
+    file.read(fmt::format("released_energy_{}", i), saved.released_energy[i]);
+  }
   file.read("load_speed", saved.load_speed);
   file.read("vent", vent_now_);
   vent_next_ = vent_now_;

@@ -26,7 +26,7 @@ void VesselRun::start_at_equilibrium() {
   for (std::vector<double>& component : at_rest) component.assign(found.displacement[0].size(), 0.0);
   body_->set_state(found.displacement, at_rest);
   peridynamics::Body::Saved state = body_->save();
-  state.external_work = found.strain_energy;
+  state.external_work = {found.strain_energy, 0};
   // What the stored energy can give a loose particle.
   state.load_speed = std::sqrt(2 * found.largest_energy_density / v.density);
   body_->restore(state);

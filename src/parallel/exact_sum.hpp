@@ -1,6 +1,7 @@
 /// Sums of doubles that do not depend on the order of their terms, hence not on ranks and threads.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -36,7 +37,21 @@ class ExactSum {
   }
 
   /// Over all ranks (collective).
-  double value(Communicator comm) const {
+  double value(Communicator comm) const { return over(comm).value(); }
+
+  /// The same, to be added to another sum of this scale without loss: as a double, and what it rounds away.
+  std::array<double, 2> parts(Communicator comm) const {
+    const ExactSum sum = over(comm);
+    const double rounded = sum.value();
+    if (sum.overflow_) return {rounded, 0};
+    const Integer rest = sum.total_ - static_cast<Integer>(rounded / quantum_);
+    return {rounded, static_cast<double>(rest) * quantum_};
+  }
+
+ private:
+  __extension__ using Integer = __int128;
+
+  ExactSum over(Communicator comm) const {
     // Four limbs of 32 bits, the last one signed: sums over up to 2^31 ranks fit 64 bits each.
     std::int64_t limbs[5];
     Integer rest = total_;
@@ -51,11 +66,9 @@ class ExactSum {
     sum.overflow_ = limbs[4] != 0;
     sum.total_ = 0;
     for (int i = 3; i >= 0; --i) sum.total_ = sum.total_ * (Integer{1} << 32) + limbs[i];
-    return sum.value();
+    return sum;
   }
 
- private:
-  __extension__ using Integer = __int128;
   double quantum_;
   Integer total_ = 0;
   bool overflow_ = false;

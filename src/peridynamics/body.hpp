@@ -115,8 +115,9 @@ class Body {
     std::array<std::vector<double>, 3> displacement, leapfrog_velocity;
     std::vector<std::uint16_t> words;
     bool first_kick_pending = false;
-    double external_work = 0;       ///< J
-    double released_energy = 0;     ///< J, of dilatation, by breaking bonds; 0 where the law has none
+    /// J, sums exact as two doubles (ExactSum::parts): work done so far, and energy of dilatation that
+    /// breaking bonds released, 0 where the law has none.
+    std::array<double, 2> external_work{}, released_energy{};
     double load_speed = 0;          ///< m/s, see ColumnBody
     std::array<double, 3> frame{};  ///< m
     bool wrapped = false;           ///< see ColumnBody::follow_body

@@ -82,7 +82,6 @@ struct States {
   std::vector<Real> pressure;         ///< p, padded
   std::vector<double> dilatation;     ///< theta of owned particles
   ExactSum released;                  ///< J, dilatation energy that breaking bonds took so far
-  double released_before = 0;         ///< J, before a restart
 };
 
 template <class Law, class Real>
@@ -246,8 +245,11 @@ class ColumnBody final : public Body {
     const double spacing = setup_.lattice.spacing, unit = spacing * spacing * spacing;
     return setup_.bond_constant * unit * (unit / setup_.lattice.volume(column));
   }
-  double external_work() const {
-    return work_.value(comm_) + comm_.all_reduce(work_before_, parallel::Reduce::max);
+  /// A sum as another run saved it.
+  ExactSum restored(const std::array<double, 2>& parts) const {
+    ExactSum sum(setup_.energy_scale);
+    for (const double part : parts) sum.add(comm_.is_root() ? part : 0.0);
+    return sum;
   }
   void follow_body();
   void fill_padded();
@@ -284,9 +286,6 @@ class ColumnBody final : public Body {
   void look_for_rupture(ThreadEvents& events) const;
   double fracture_energy(Unit unit) const;
   double dilatation_energy(double theta, std::size_t place) const;
-  double released_energy() const {
-    return state_->released.value(comm_) + comm_.all_reduce(state_->released_before, parallel::Reduce::max);
-  }
   void dilate_unit(Unit unit, ThreadEvents& events);
   void find_dilatations(std::vector<ThreadEvents>& per_thread);
   void move_unit(Unit unit, const BlockSums<Real>& sums, double pressure, double work_pressure, double kick,
@@ -331,7 +330,6 @@ class ColumnBody final : public Body {
   std::int64_t born_directed_ = 0, intact_directed_ = 0;  ///< bonds of owned particles
   std::int64_t bond_evaluations_ = 0;
   ExactSum work_;
-  double work_before_ = 0;  ///< J, done before a restart (on rank 0)
   /// m/s, what the load so far would have given a loose particle. One that is four times as fast, and moves
   /// more than two spacings a step besides, was not moved by forces of the model: the step is unstable.
   double load_speed_ = 0;

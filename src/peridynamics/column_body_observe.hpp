@@ -139,8 +139,8 @@ Totals ColumnBody<Law, Real>::totals() const {
   totals.kinetic = observed_.kinetic.value(comm_);
   totals.strain = observed_.strain.value(comm_);
   totals.fracture = observed_.fracture.value(comm_);
-  if constexpr (Law::state_based) totals.fracture += released_energy();
-  totals.external_work = external_work();
+  if constexpr (Law::state_based) totals.fracture += state_->released.value(comm_);
+  totals.external_work = work_.value(comm_);
   totals.max_displacement = max_displacement();
   totals.max_damage = comm_.all_reduce(observed_.max_damage, parallel::Reduce::max);
   totals.broken_bonds = comm_.all_reduce(born_directed_ - intact_directed_, parallel::Reduce::sum) / 2;

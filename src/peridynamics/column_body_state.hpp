@@ -175,10 +175,16 @@ BondWordLayout ColumnBody<Law, Real>::bond_word_layout() const {
 
 template <class Law, class Real>
 Body::Saved ColumnBody<Law, Real>::save() const {
-  Saved saved{u_, v_,          {},     first_kick_pending_, 0,
-              0,  load_speed_, frame_, per_period_ > 0,     steps_ % frame_interval};
-  saved.external_work = external_work();
-  if constexpr (Law::state_based) saved.released_energy = released_energy();
+  Saved saved{.displacement = u_,
+              .leapfrog_velocity = v_,
+              .words = {},
+              .first_kick_pending = first_kick_pending_,
+              .external_work = work_.parts(comm_),
+              .load_speed = load_speed_,
+              .frame = frame_,
+              .wrapped = per_period_ > 0,
+              .frame_phase = steps_ % frame_interval};
+  if constexpr (Law::state_based) saved.released_energy = state_->released.parts(comm_);
   saved.words.reserve(intact_.size());
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
     for (std::size_t b = 0; b < bonds_of({slot, 0}).size(); ++b) {
@@ -195,8 +201,8 @@ void ColumnBody<Law, Real>::restore(const Saved& saved) {
   u_ = saved.displacement;
   v_ = saved.leapfrog_velocity;
   first_kick_pending_ = saved.first_kick_pending;
-  work_before_ = saved.external_work;
-  if constexpr (Law::state_based) state_->released_before = saved.released_energy;
+  work_ = restored(saved.external_work);
+  if constexpr (Law::state_based) state_->released = restored(saved.released_energy);
   load_speed_ = saved.load_speed;
   frame_ = saved.frame;
   per_period_ = saved.wrapped ? 1 / wrap_period : 0;

@@ -202,12 +202,8 @@ class Coupled(CoupledCase):
         self.assertGreater(whole[32]["broken_bonds"], 0)  # at step 128
         more = ["--restart", "whole/checkpoints/step_000130.h5"]
         rest = self.run_well(ONE_WAY, "rest", "time.end=1 ms", more=more, ranks=2)
-        for key in set(results) - {"energy_drift"}:
-            self.assertEqual(rest[key], results[key], key)
-        for row, expected in zip(self.rows("rest/history.csv")[1:], whole[33:], strict=True):
-            # Work is a sum that is exact until it is stored, rounded, with a checkpoint.
-            self.assert_close(row.pop("external_work_J"), expected.pop("external_work_J"), 1e-14)
-            self.assertEqual(row, expected)
+        self.assertEqual(rest, results)
+        self.assertEqual(self.rows("rest/history.csv")[1:], whole[33:])
         with h5py.File(self.path / "whole/particles.h5") as a, h5py.File(self.path / "rest/particles_from_000130.h5") as b:
             for field in ("position", "velocity", "damage"):
                 self.assertTrue((a[f"{field}/000200"][:] == b[f"{field}/000200"][:]).all(), field)

@@ -41,6 +41,27 @@ TEST(ExactSum, DoesNotDependOnOrderOrRanks) {
   EXPECT_NEAR(all.value(), plain, 1e-10);
 }
 
+TEST(ExactSum, GoesOnFromItsPartsWithoutLoss) {
+  const auto world = Communicator::world();
+  for (const double sign : {1.0, -1.0}) {
+    ExactSum whole(1.0), early(1.0);
+    for (int i = 1; i < 200; ++i) {
+      whole.add(sign / i);
+      early.add(sign / i);
+    }
+    const std::array<double, 2> parts = early.parts(world);
+    EXPECT_NE(parts[1], 0);
+    ExactSum late(1.0);
+    for (const double part : parts) late.add(world.is_root() ? part : 0.0);
+    // Far smaller than the last digit of the first part: it tells whether the second is there.
+    for (int i = 0; i < 1000; ++i) {
+      whole.add(sign * 1e-18);
+      late.add(sign * 1e-18);
+    }
+    EXPECT_EQ(late.parts(world), whole.parts(world));
+  }
+}
+
 TEST(ExactSum, NegativeTotalsAndOverflow) {
   const auto world = Communicator::world();
   ExactSum sum(1.0);
