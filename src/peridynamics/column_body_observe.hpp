@@ -69,7 +69,7 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
       speed2 += v * v;
     }
   }
-  // Looking for what is broken takes as long as the forces do.
+  // While nothing is broken nobody need look for it.
   const bool unbroken = intact_directed_ == born_directed_ && sums.broken == 0;
   double damage_of[block_rows] = {};
   if (!unbroken) find_damage(unit, damage_of);
