@@ -294,8 +294,8 @@ class ColumnBody final : public Body {
   template <class PerThread, class Work>
   void with_halo(parallel::HaloExchange<Real>& halo, std::span<Real* const> field,
                  std::vector<PerThread>& per_thread, const Work& work);
-  template <class PerThread, class Work>
-  void with_forces(std::vector<PerThread>& per_thread, const Work& work);
+  template <class Use>
+  void with_missing_halo(const Use& use);
 
   Law law_;
   BodySetup setup_;

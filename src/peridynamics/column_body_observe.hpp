@@ -113,8 +113,10 @@ const Observation& ColumnBody<Law, Real>::observe(double pressure) {
   std::int64_t dilating = 0;  // broken before the forces
   for (const ThreadEvents& t : breaking) dilating += t.broken;
   intact_directed_ -= dilating;
-  with_forces(per_thread,
+  with_missing_halo([&](parallel::HaloExchange<Real>& halo, std::span<Real* const> field) {
+    with_halo(halo, field, per_thread,
               [&](Unit unit, ThreadTotals& totals) { observe_unit(unit, pressure, kick, totals); });
+  });
   observed_ = per_thread.front();
   for (std::size_t t = 1; t < per_thread.size(); ++t) {
     const ThreadTotals& other = per_thread[t];

@@ -126,15 +126,17 @@ void ColumnBody<Law, Real>::with_halo(parallel::HaloExchange<Real>& halo, std::s
   run(boundary_);
 }
 
-/// The same with the halo of what forces are still missing: the dilatations' pressure, where the law has one.
+/// Calls `use(halo, field)` for what forces are still missing: the displacement, or the dilatations' pressure
+/// where the law has one.
 template <class Law, class Real>
-template <class PerThread, class Work>
-void ColumnBody<Law, Real>::with_forces(std::vector<PerThread>& per_thread, const Work& work) {
+template <class Use>
+void ColumnBody<Law, Real>::with_missing_halo(const Use& use) {
   if constexpr (Law::state_based) {
     Real* const pressure = state_->pressure.data();
-    with_halo(state_->halo, {&pressure, 1}, per_thread, work);
+    use(state_->halo, std::span<Real* const>(&pressure, 1));
   } else {
-    with_halo(halo_, current(), per_thread, work);
+    const auto u = current();
+    use(halo_, std::span<Real* const>(u));
   }
 }
 
@@ -185,15 +187,11 @@ StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure)
   const double work_pressure = 0.5 * (pressure + next_pressure);
   load_speed_ += setup_.time_step * std::abs(pressure) * largest_load_ / setup_.density;
   std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
-  if constexpr (Law::state_based) {
-    find_dilatations(per_thread);
-    Real* const field = state_->pressure.data();
-    state_->halo.start({&field, 1});
-    state_->halo.finish({&field, 1});
-  } else {
-    halo_.start(current());
-    halo_.finish(current());
-  }
+  if constexpr (Law::state_based) find_dilatations(per_thread);
+  with_missing_halo([](parallel::HaloExchange<Real>& halo, std::span<Real* const> field) {
+    halo.start(field);
+    halo.finish(field);
+  });
   parallel::for_each_share(threads_, parts_.size(), [&](int thread, std::size_t begin, std::size_t end) {
     ThreadEvents& events = per_thread[static_cast<std::size_t>(thread)];
     for (std::size_t p = begin; p < end; ++p) {
