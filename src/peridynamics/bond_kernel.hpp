@@ -5,7 +5,7 @@
 /// sign between the two ends of a bond: both ends break it in the same step, and its force is the same
 /// whether each end evaluates it for itself or one for both.
 ///
-/// Lengths are in spacings. With y = xi + eta:  t = eta . (xi + y) / |xi|^2  is (1 + s)^2 - 1 without
+/// Lengths are in spacings. With y = xi + eta:  t = eta . (2 xi + eta) / |xi|^2  is (1 + s)^2 - 1 without
 /// cancellation.
 #pragma once
 
@@ -29,11 +29,12 @@ struct LocalProperties {
   const Real* half_stiffness = nullptr;  ///< half of the factor on the bond constant
 };
 
-/// A bond as the kernel wants it; 32 bytes in single precision.
+/// A bond as the kernel wants it; 44 bytes in single precision.
 template <class Real>
 struct BondConstants {
-  Real xi[3];
-  Real inverse_length2;  ///< 1 / |xi|^2
+  Real xi[3] = {};
+  Real inverse_length2;   ///< 1 / |xi|^2
+  Real twice_xi[3] = {};  ///< 2 xi / |xi|^2
   Real weight;  ///< w V_i V_j / (spacing^6 |xi|): force is c spacing^6 sum weight g(t) y, of either end
   Real volume;  ///< V_j / spacing^3
   Real energy_weight;   ///< w volume |xi|: energy density is c spacing^4 sum energy_weight s^2/2, halved
@@ -46,6 +47,12 @@ struct BondRun {
   bool both;
 };
 
+/// A bond of a family that broke in some rows.
+struct BrokenBond {
+  std::int32_t bond;
+  std::uint16_t rows;
+};
+
 /// One block of one column: what the bonds read and the bits they may clear.
 template <class Real>
 struct BlockView {
@@ -56,6 +63,7 @@ struct BlockView {
   Real breaking_t;                   ///< of a uniform wall
   LocalProperties<Real> local = {};  ///< of one that is not, at the block's first row
   const Real* pressure = nullptr;    ///< of a state-based law, padded, at the block's first row
+  BrokenBond* broken = nullptr;      ///< room for what breaks and is evaluated for both ends, row by row
 };
 
 /// Sums over each row's family.
@@ -64,13 +72,14 @@ struct BlockSums {
   alignas(64) Real force[3][parallel::block_rows] = {};  ///< added to
   alignas(64) Real energy[parallel::block_rows];         ///< filled when observing only
   int broken = 0;                                        ///< directed bonds of these rows that broke now
+  std::size_t broken_for_both = 0;                       ///< how many are in BlockView::broken
   int crushed = 0;  ///< directed bonds shorter than half their length; counted when observing only
 };
 
-/// Floating-point operations of one bond that pulls, for both of its ends: 9 for eta, y and xi + y, 6 for t,
-/// 13 for g(t), 1 for k, 6 for the force on either end (a fused multiply-add counts as two, the approximate
-/// root as one). What is done twice, where one thread does not have both ends, counts once.
-inline constexpr double flop_per_bond = 41;
+/// Floating-point operations of one bond that pulls, for both of its ends: 6 for eta and y, 11 for t, 13 for
+/// g(t), 1 for k, 12 for the forces (a fused multiply-add counts as two, the approximate root as one). What
+/// is done twice, where one thread does not have both ends, counts once.
+inline constexpr double flop_per_bond = 43;
 
 /// Period of wrapped displacements, in spacings: twice as long as the ends of any bond can be moved apart.
 inline constexpr double wrap_period = 256;
@@ -122,15 +131,12 @@ class Ends {
     const V eta_x = apart(d, hn::LoadU(d, u_[0] + bond.offset), u_x_);
     const V eta_y = apart(d, hn::LoadU(d, u_[1] + bond.offset), u_y_);
     const V eta_z = apart(d, hn::LoadU(d, u_[2] + bond.offset), u_z_);
-    const V xi_x = hn::Set(d, bond.xi[0]);
-    const V xi_y = hn::Set(d, bond.xi[1]);
-    const V xi_z = hn::Set(d, bond.xi[2]);
-    const V y_x = hn::Add(eta_x, xi_x);
-    const V y_y = hn::Add(eta_y, xi_y);
-    const V y_z = hn::Add(eta_z, xi_z);
-    const V q = hn::MulAdd(eta_z, hn::Add(y_z, xi_z),
-                           hn::MulAdd(eta_y, hn::Add(y_y, xi_y), hn::Mul(eta_x, hn::Add(y_x, xi_x))));
-    return {y_x, y_y, y_z, hn::Mul(q, hn::Set(d, bond.inverse_length2))};
+    const V inverse = hn::Set(d, bond.inverse_length2);
+    const V t_x = hn::Mul(eta_x, hn::MulAdd(eta_x, inverse, hn::Set(d, bond.twice_xi[0])));
+    const V t_xy = hn::MulAdd(eta_y, hn::MulAdd(eta_y, inverse, hn::Set(d, bond.twice_xi[1])), t_x);
+    const V t = hn::MulAdd(eta_z, hn::MulAdd(eta_z, inverse, hn::Set(d, bond.twice_xi[2])), t_xy);
+    return {hn::Add(eta_x, hn::Set(d, bond.xi[0])), hn::Add(eta_y, hn::Set(d, bond.xi[1])),
+            hn::Add(eta_z, hn::Set(d, bond.xi[2])), t};
   }
 
  private:
@@ -188,10 +194,9 @@ struct Sums {
 };
 
 /// Adds the bonds of a run, those `both` to the sums of their other ends too.
-template <bool both, bool observing, bool heterogeneous, bool wrapped, class D, class Law, class Real,
-          class Break>
+template <bool both, bool observing, bool heterogeneous, bool wrapped, class D, class Law, class Real>
 HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::size_t lane, const BondRun run,
-                        Sums<D>& sum, BlockSums<Real>& sums, const Break& on_break) {
+                        Sums<D>& sum, BlockSums<Real>& sums) {
   using V = hn::Vec<D>;
   const Ends<wrapped, D, Real> ends(d, block, lane);
   const BreakingTest<heterogeneous, D, Real> test(d, block, lane);
@@ -199,40 +204,44 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
   if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
   if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
   Sums<D> f = sum;
+  std::array<Real*, 3> others = {};
+  if constexpr (both) others = {block.others[0] + lane, block.others[1] + lane, block.others[2] + lane};
+  const std::uint16_t* const past = block.intact + run.past;
+  std::uint16_t* next_word = block.intact + run.first;
+  const BondConstants<Real>* next_bond = block.bonds.data() + run.first;
+  const auto skip_broken = [&] {
+    while (next_word != past && *next_word == 0) ++next_word, ++next_bond;
+  };
+  skip_broken();
+  if (next_word == past) return;
   // Two bonds at a time, the next one's stretch beside this one's force: what a processor can hold of
   // instructions that wait for others is soon full, and one bond is a long chain of them.
-  const auto next_unbroken = [&](std::int32_t b) {
-    while (b < run.past && block.intact[b] == 0) ++b;
-    return b;
-  };
-  const auto bond_of = [&](std::int32_t b) -> const BondConstants<Real>& {
-    return block.bonds[static_cast<std::size_t>(b)];
-  };
-  std::int32_t b = next_unbroken(run.first);
-  if (b == run.past) return;
-  Deformed<V> now = ends.deformed(d, bond_of(b));
-  for (std::int32_t next = b; b < run.past; b = next) {
-    const BondConstants<Real>& bond = bond_of(b);
-    std::uint16_t& word = block.intact[b];
-    const auto [y_x, y_y, y_z, t] = now;
-    next = next_unbroken(b + 1);
-    if (next < run.past) now = ends.deformed(d, bond_of(next));
-    [[maybe_unused]] const std::ptrdiff_t there = bond.offset + static_cast<std::ptrdiff_t>(lane);
+  Deformed<V> next = ends.deformed(d, *next_bond);
+  do {
+    const BondConstants<Real>& bond = *next_bond++;
+    std::uint16_t& word = *next_word++;
+    const auto [y_x, y_y, y_z, t] = next;
+    skip_broken();
+    if (next_word != past) next = ends.deformed(d, *next_bond);
     const std::uint16_t broken = clear(d, test.fails(d, law, bond, t), lane, word);
     if (HWY_UNLIKELY(broken != 0)) {
       sums.broken += std::popcount(broken);
-      if constexpr (both) on_break(b, broken);
+      if constexpr (both) {
+        const auto number = static_cast<std::int32_t>(&word - block.intact);
+        block.broken[sums.broken_for_both++] = {number, broken};
+      }
     }
     const auto pulling = lanes_of(d, word, lane);
+    [[maybe_unused]] const std::ptrdiff_t there = bond.offset;
     const V one = hn::Set(d, Real{1});
     const V g = law.force_factor(d, t);
     V stiffness = one, pull = g;
     if constexpr (heterogeneous) {
-      stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + there));
+      stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + lane + there));
       pull = hn::Mul(g, stiffness);
     }
     if constexpr (Law::state_based) {
-      const V pressures = hn::Add(pressure, hn::LoadU(d, block.pressure + there));
+      const V pressures = hn::Add(pressure, hn::LoadU(d, block.pressure + lane + there));
       pull = hn::MulAdd(pressures, hn::Sub(one, g), pull);  // 1 - g = 1 / (1 + s)
     }
     const V k = hn::IfThenElseZero(pulling, hn::Mul(pull, hn::Set(d, bond.weight)));
@@ -240,10 +249,9 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
     f.y = hn::MulAdd(k, y_y, f.y);
     f.z = hn::MulAdd(k, y_z, f.z);
     if constexpr (both) {
-      Real* const other[3] = {block.others[0] + there, block.others[1] + there, block.others[2] + there};
-      hn::StoreU(hn::NegMulAdd(k, y_x, hn::LoadU(d, other[0])), d, other[0]);
-      hn::StoreU(hn::NegMulAdd(k, y_y, hn::LoadU(d, other[1])), d, other[1]);
-      hn::StoreU(hn::NegMulAdd(k, y_z, hn::LoadU(d, other[2])), d, other[2]);
+      hn::StoreU(hn::NegMulAdd(k, y_x, hn::LoadU(d, others[0] + there)), d, others[0] + there);
+      hn::StoreU(hn::NegMulAdd(k, y_y, hn::LoadU(d, others[1] + there)), d, others[1] + there);
+      hn::StoreU(hn::NegMulAdd(k, y_z, hn::LoadU(d, others[2] + there)), d, others[2] + there);
     }
     if constexpr (observing) {
       V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
@@ -252,7 +260,7 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
       const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
       sums.crushed += static_cast<int>(hn::CountTrue(d, crushed));
     }
-  }
+  } while (next_word != past);
   sum = f;
 }
 
@@ -262,11 +270,10 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
 /// the strain energy (half of each bond's, its other half belongs to the other end). Only a `heterogeneous`
 /// wall pays for properties by place, only a `wrapped` one for displacements that are known up to whole
 /// periods, and only a state-based law for the pressures p of its particles, which add p_i + p_j to the
-/// stretch (materials/lps.hpp). `on_break(b, rows)` hears of bonds that break and are evaluated for both
-/// ends.
-template <bool observing, bool heterogeneous, bool wrapped, class Law, class Real, class Break>
+/// stretch (materials/lps.hpp).
+template <bool observing, bool heterogeneous, bool wrapped, class Law, class Real>
 HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span<const BondRun> runs,
-                          BlockSums<Real>& sums, const Break& on_break) {
+                          BlockSums<Real>& sums) {
   namespace hn = hwy::HWY_NAMESPACE;
   using D = hn::CappedTag<Real, parallel::block_rows>;
   const D d;
@@ -275,11 +282,9 @@ HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span
                         hn::Load(d, sums.force[2] + lane), hn::Zero(d)};
     for (const BondRun run : runs) {
       if (run.both) {
-        detail::add_run<true, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums,
-                                                                 on_break);
+        detail::add_run<true, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums);
       } else {
-        detail::add_run<false, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums,
-                                                                  on_break);
+        detail::add_run<false, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums);
       }
     }
     hn::Store(sum.x, d, sums.force[0] + lane);

@@ -58,6 +58,19 @@ struct Part {
   std::vector<std::size_t> first_run;                      ///< of each column, into runs
   std::array<hwy::AlignedFreeUniquePtr<Real[]>, 3> force;  ///< sums, each column as in padded arrays
   std::vector<std::uint16_t> words;                        ///< of one column's bonds from beyond the part
+  std::vector<BrokenBond> broken;                          ///< now, of one block, for both ends
+
+  std::int32_t first_block() const { return static_cast<std::int32_t>(first_row / block_rows); }
+  std::int32_t past_block() const {
+    return static_cast<std::int32_t>((past_row + block_rows - 1) / block_rows);
+  }
+};
+
+/// What drives a step in time.
+struct Push {
+  double pressure, work_pressure;  ///< Pa, now and the mean over the step
+  double kick;                     ///< s, by which velocities lag behind
+  double fastest;                  ///< m/s, see load_speed_
 };
 
 /// What a thread gathers while it observes.
@@ -265,19 +278,19 @@ class ColumnBody final : public Body {
   BlockView<Real> view(Part<Real>& part, std::int32_t slot, std::int64_t row, std::uint16_t* words);
   template <class Use>
   void choose_kernel(const Use& use) const;
-  template <bool observing, class Break>
-  void sum(const BlockView<Real>& block, std::span<const BondRun> runs, BlockSums<Real>& sums,
-           const Break& on_break) const;
+  template <bool observing>
+  void sum(const BlockView<Real>& block, std::span<const BondRun> runs, BlockSums<Real>& sums) const;
   template <class Use>
   void each_opposite(const Part<Real>& part, std::int32_t slot, std::int64_t row, std::int32_t b,
                      const Use& use);
-  void break_other_ends(Part<Real>& part, std::int32_t slot, std::int64_t row, std::int32_t b,
-                        std::uint16_t broken, ThreadEvents& events);
+  void break_other_ends(Part<Real>& part, std::int32_t slot, std::int64_t row, std::size_t count,
+                        ThreadEvents& events);
   void add_from_beyond(Part<Real>& part, std::int32_t slot, std::int64_t row, std::span<const BondRun> runs,
                        ThreadEvents& events);
   template <class Use>
   void sum_part(Part<Real>& part, ThreadEvents& events, const Use& use);
   double breaking_energy(Unit unit, const BondConstants<Real>& bond, std::uint16_t broken) const;
+  std::pair<std::int64_t, std::int64_t> free_rows(std::int64_t begin, std::int64_t past, int component) const;
   std::pair<int, int> free_rows(Unit unit, int component) const;
   std::uint16_t broken(Unit unit, std::size_t b) const;
   void find_damage(Unit unit, double (&damage)[block_rows]) const;
@@ -288,8 +301,8 @@ class ColumnBody final : public Body {
   double dilatation_energy(double theta, std::size_t place) const;
   void dilate_unit(Unit unit, ThreadEvents& events);
   void find_dilatations(std::vector<ThreadEvents>& per_thread);
-  void move_unit(Unit unit, const BlockSums<Real>& sums, double pressure, double work_pressure, double kick,
-                 ThreadEvents& events);
+  void push_column(const Part<Real>& part, std::int32_t slot, const Push& push, ExactSum& work);
+  void move_column(const Part<Real>& part, std::int32_t slot, const Push& push, ThreadEvents& events);
   void observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals);
   template <class PerThread, class Work>
   void with_halo(parallel::HaloExchange<Real>& halo, std::span<Real* const> field,

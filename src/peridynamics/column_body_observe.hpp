@@ -43,7 +43,7 @@ template <class Law, class Real>
 void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals) {
   BlockSums<Real> sums;
   const BondRun all{0, static_cast<std::int32_t>(bonds_of(unit).size()), false};
-  sum<true>(view(unit), {&all, 1}, sums, [](std::int32_t, std::uint16_t) {});
+  sum<true>(view(unit), {&all, 1}, sums);
   totals.broken += sums.broken;
   totals.crushed += sums.crushed;
 

@@ -37,6 +37,7 @@ void ColumnBody<Law, Real>::make_parts() {
     }
     part.first_run.push_back(part.runs.size());
     part.words.resize(longest);
+    part.broken.resize(longest * static_cast<std::size_t>(block_rows));
     for (auto& force : part.force)
       force = hwy::AllocateAligned<Real>(domain_.stride() * (part.first_run.size() - 1));
   }
@@ -109,16 +110,20 @@ void ColumnBody<Law, Real>::each_opposite(const Part<Real>& part, std::int32_t s
   }
 }
 
-/// Breaks bond `b` of rows [row, row + 16) of a column, those in `broken`, at their other ends in the part.
+/// Breaks the first `count` of `part.broken`, bonds of rows [row, row + 16) of a column, at their other ends
+/// in the part.
 template <class Law, class Real>
 void ColumnBody<Law, Real>::break_other_ends(Part<Real>& part, std::int32_t slot, std::int64_t row,
-                                             std::int32_t b, std::uint16_t broken, ThreadEvents& events) {
-  each_opposite(part, slot, row, b, [&](std::uint16_t& word, Unit unit, int shift) {
-    const unsigned rows = shift >= 0 ? unsigned{broken} << shift : unsigned{broken} >> -shift;
-    const auto ending = static_cast<std::uint16_t>(word & rows);
-    word = static_cast<std::uint16_t>(word & ~ending);
-    if (ending != 0) note_broken(unit, std::popcount(ending), events);
-  });
+                                             std::size_t count, ThreadEvents& events) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const BrokenBond broken = part.broken[i];
+    each_opposite(part, slot, row, broken.bond, [&](std::uint16_t& word, Unit unit, int shift) {
+      const unsigned rows = shift >= 0 ? unsigned{broken.rows} << shift : unsigned{broken.rows} >> -shift;
+      const auto ending = static_cast<std::uint16_t>(word & rows);
+      word = static_cast<std::uint16_t>(word & ~ending);
+      note_broken(unit, std::popcount(ending), events);
+    });
+  }
 }
 
 /// Bonds from 16 rows beyond the part, from `row` on, into it.
@@ -137,25 +142,21 @@ void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot,
     }
   }
   if (any == 0) return;
-  BlockSums<Real> unused;
+  BlockSums<Real> of_the_rows;  // which are another part's
   for (const BondRun& run : runs) {
-    if (!run.both) continue;
-    sum<false>(
-        view(part, slot, row, part.words.data()), {&run, 1}, unused,
-        [&](std::int32_t b, std::uint16_t broken) { break_other_ends(part, slot, row, b, broken, events); });
+    if (run.both) sum<false>(view(part, slot, row, part.words.data()), {&run, 1}, of_the_rows);
   }
+  break_other_ends(part, slot, row, of_the_rows.broken_for_both, events);
 }
 
-/// Calls `use(unit, sums)` for all units of a part, with the forces of all their bonds.
+/// Sums the forces of a part's particles in `part.force`; calls `use(slot)` for each column once it is done.
 template <class Law, class Real>
 template <class Use>
 void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, const Use& use) {
   const PointLayout& layout = domain_.layout();
   const bool below = periodic_ || layout.first_row + part.first_row > 0;
   const bool above = periodic_ || layout.first_row + part.past_row < layout.rows;
-  const auto first_block = static_cast<std::int32_t>(part.first_row / block_rows);
-  const auto past_block = static_cast<std::int32_t>((part.past_row + block_rows - 1) / block_rows);
-  const auto nobody = [](std::int32_t, std::uint16_t) {};
+  const std::int32_t first_block = part.first_block(), past_block = part.past_block();
   for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
     const BondRun& before = part.runs[part.first_run[slot - part.first_slot]];
     // Bonds that leave the part add to rows beyond it, which nobody reads.
@@ -166,7 +167,7 @@ void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, con
       BlockSums<Real> sums;
       const Unit unit{slot, block};
       const BlockView<Real> here = view(part, slot, block * block_rows, intact_.data() + first_word(unit));
-      sum<false>(here, {&before, 1}, sums, nobody);
+      sum<false>(here, {&before, 1}, sums);
       for (int k = 0; k < 3; ++k) std::copy_n(sums.force[k], block_rows, here.others[k]);
       note_broken(unit, sums.broken, events);
     }
@@ -180,12 +181,12 @@ void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, con
       const Unit unit{slot, block};
       const BlockView<Real> here = view(part, slot, block * block_rows, intact_.data() + first_word(unit));
       for (int k = 0; k < 3; ++k) std::copy_n(here.others[k], block_rows, sums.force[k]);
-      sum<false>(here, runs, sums, [&](std::int32_t b, std::uint16_t broken) {
-        break_other_ends(part, slot, block * block_rows, b, broken, events);
-      });
+      sum<false>(here, runs, sums);
+      break_other_ends(part, slot, block * block_rows, sums.broken_for_both, events);
+      for (int k = 0; k < 3; ++k) std::copy_n(sums.force[k], block_rows, here.others[k]);
       note_broken(unit, sums.broken, events);
-      use(unit, sums);
     }
+    use(slot);
     if (above) add_from_beyond(part, slot, part.past_row, runs, events);
   }
 }

@@ -20,12 +20,17 @@ void ColumnBody<Law, Real>::make_bonds() {
       const auto offset = static_cast<std::int64_t>(domain_.padded(domain_.slot(bond.other))) +
                           bond.row_offset -
                           static_cast<std::int64_t>(domain_.padded(static_cast<std::size_t>(c)));
-      bonds_.push_back({{Real(bond.xi[0]), Real(bond.xi[1]), Real(bond.xi[2])},
-                        Real(1 / (bond.length * bond.length)),
-                        Real(bond.weight * (own_volume * volume) / bond.length),
-                        Real(volume),
-                        Real(bond.weight * volume * bond.length),
-                        static_cast<std::int32_t>(offset)});
+      const double inverse_length2 = 1 / (bond.length * bond.length);
+      BondConstants<Real> constants{.inverse_length2 = Real(inverse_length2),
+                                    .weight = Real(bond.weight * (own_volume * volume) / bond.length),
+                                    .volume = Real(volume),
+                                    .energy_weight = Real(bond.weight * volume * bond.length),
+                                    .offset = static_cast<std::int32_t>(offset)};
+      for (int k = 0; k < 3; ++k) {
+        constants.xi[k] = Real(bond.xi[k]);
+        constants.twice_xi[k] = Real(2 * bond.xi[k] * inverse_length2);
+      }
+      bonds_.push_back(constants);
     }
     first_bond_.push_back(static_cast<std::int64_t>(bonds_.size()));
   }

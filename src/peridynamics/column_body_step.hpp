@@ -25,6 +25,7 @@ BlockView<Real> ColumnBody<Law, Real>::view(Part<Real>& part, std::int32_t slot,
   const std::size_t place =
       domain_.padded(static_cast<std::size_t>(slot - part.first_slot)) + static_cast<std::size_t>(row);
   for (std::size_t k = 0; k < 3; ++k) block.others[k] = part.force[k].get() + place;
+  block.broken = part.broken.data();
   return block;
 }
 
@@ -41,23 +42,29 @@ void ColumnBody<Law, Real>::choose_kernel(const Use& use) const {
 }
 
 template <class Law, class Real>
-template <bool observing, class Break>
+template <bool observing>
 void ColumnBody<Law, Real>::sum(const BlockView<Real>& block, std::span<const BondRun> runs,
-                                BlockSums<Real>& sums, const Break& on_break) const {
+                                BlockSums<Real>& sums) const {
   choose_kernel([&]<bool heterogeneous, bool wrapped>() {
-    sum_block<observing, heterogeneous, wrapped>(law_, block, runs, sums, on_break);
+    sum_block<observing, heterogeneous, wrapped>(law_, block, runs, sums);
   });
 }
 
-/// Rows of a unit, [first, past), whose motion along axis `component` the ends do not hold.
+/// Of owned rows [begin, past): those whose motion along axis `component` the ends do not hold.
+template <class Law, class Real>
+std::pair<std::int64_t, std::int64_t> ColumnBody<Law, Real>::free_rows(std::int64_t begin, std::int64_t past,
+                                                                       int component) const {
+  const std::pair<std::int64_t, std::int64_t>& free = free_rows_[static_cast<std::size_t>(component)];
+  const std::int64_t first_row = domain_.layout().first_row;
+  return {std::clamp(free.first - first_row, begin, past), std::clamp(free.second - first_row, begin, past)};
+}
+
+/// The same of a unit's rows, counted from its first.
 template <class Law, class Real>
 std::pair<int, int> ColumnBody<Law, Real>::free_rows(Unit unit, int component) const {
-  const auto [first, past] = free_rows_[static_cast<std::size_t>(component)];
-  const std::int64_t begin = domain_.layout().first_row + unit.block * block_rows;
-  const auto local = [&](std::int64_t row) {
-    return static_cast<int>(std::clamp<std::int64_t>(row - begin, 0, domain_.rows_in(unit.block)));
-  };
-  return {local(first), local(past)};
+  const std::int64_t begin = unit.block * block_rows;
+  const auto [first, past] = free_rows(begin, begin + domain_.rows_in(unit.block), component);
+  return {static_cast<int>(first - begin), static_cast<int>(past - begin)};
 }
 
 /// Rows in which bond `b` of a unit was born and is broken.
@@ -140,43 +147,66 @@ void ColumnBody<Law, Real>::with_missing_halo(const Use& use) {
   }
 }
 
-/// From t_n to t_{n+1} under the forces of a unit's bonds and the load.
+/// Adds the load to the velocity of a part's rows of a column, and its work over the step to `work`. Block by
+/// block, for a sum over rows depends on where it begins.
 template <class Law, class Real>
-void ColumnBody<Law, Real>::move_unit(Unit unit, const BlockSums<Real>& sums, double pressure,
-                                      double work_pressure, double kick, ThreadEvents& events) {
-  const std::size_t column = global_column(unit.slot);
-  const Lattice& lattice = setup_.lattice;
-  const double body_force[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
-  const double bond_acceleration = bond_force_density(column) / setup_.density;
-  double space[block_rows];
-  const double* share = load_shares(unit, space);
-  const double dt = setup_.time_step;
-  const double fastest = 2 * lattice.spacing / dt + 4 * load_speed_;
-  const auto next_u = next();
+void ColumnBody<Law, Real>::push_column(const Part<Real>& part, std::int32_t slot, const Push& push,
+                                        ExactSum& work) {
+  const std::size_t column = global_column(slot);
   const double loads[2] = {setup_.layer.bx[column], setup_.layer.by[column]};
-  int too_fast = 0;
-  double work = 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto [first, past] = free_rows(unit, k);
-    // Loops of their own and nothing shared between lanes but a count: compilers then make vectors of them.
-    const Real* __restrict force = sums.force[k];
-    double* __restrict u = u_[k].data() + particle(unit);
-    double* __restrict v = v_[k].data() + particle(unit);
-    const double load = body_force[k] / setup_.density;
-    for (int lane = first; lane < past; ++lane) {
-      v[lane] += kick * (bond_acceleration * static_cast<double>(force[lane]) + share[lane] * load);
-      u[lane] += dt * v[lane];
-      too_fast += std::abs(v[lane]) < fastest ? 0 : 1;
+  const double path_work = push.work_pressure * setup_.time_step * setup_.lattice.volume(column);
+  for (std::int32_t block = part.first_block(); block < part.past_block(); ++block) {
+    const Unit unit{slot, block};
+    double space[block_rows];
+    const double* share = load_shares(unit, space);
+    double work_of_block = 0;
+    for (int k = 0; k < 2; ++k) {
+      const auto [first, past] = free_rows(unit, k);
+      const double velocity = push.kick * (push.pressure * loads[k] / setup_.density);
+      double* v = v_[k].data() + particle(unit);
+      double path = 0;
+      for (int lane = first; lane < past; ++lane) {
+        v[lane] += velocity * share[lane];
+        path += share[lane] * v[lane];
+      }
+      work_of_block += loads[k] * path;
     }
-    Real* __restrict out = next_u[k] + padded_place(unit);
-    const double frame = frame_[k];
-    for (int lane = first; lane < past; ++lane) out[lane] = in_frame(u[lane], frame);
-    if (k == 2 || !setup_.layer.loads(column)) continue;
-    double path = 0;
-    for (int lane = first; lane < past; ++lane) path += share[lane] * v[lane];
-    work += loads[k] * path;
+    work.add(path_work * work_of_block);
   }
-  if (setup_.layer.loads(column)) events.work.add(work_pressure * dt * lattice.volume(column) * work);
+}
+
+/// A part's rows of a column from t_n to t_{n+1} under the load and the forces that the part has summed.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::move_column(const Part<Real>& part, std::int32_t slot, const Push& push,
+                                        ThreadEvents& events) {
+  const std::size_t column = global_column(slot);
+  const double bond_kick = push.kick * (bond_force_density(column) / setup_.density);
+  const double dt = setup_.time_step;
+  const std::size_t first_particle = particle({slot, 0});
+  const std::size_t place = padded_place({slot, 0});
+  const std::size_t place_in_part = padded_place({slot - part.first_slot, 0});
+  const auto next_u = next();
+  int too_fast = 0;
+  // Loops of their own and nothing shared between rows but a count: compilers then make vectors of them.
+  for (int k = 0; k < 3; ++k) {
+    const auto [first, past] = free_rows(part.first_row, part.past_row, k);
+    const Real* __restrict force = part.force[k].get() + place_in_part;
+    double* __restrict v = v_[k].data() + first_particle;
+    for (std::int64_t row = first; row < past; ++row) v[row] += bond_kick * static_cast<double>(force[row]);
+  }
+  if (setup_.layer.loads(column)) push_column(part, slot, push, events.work);
+  for (int k = 0; k < 3; ++k) {
+    const auto [first, past] = free_rows(part.first_row, part.past_row, k);
+    double* __restrict u = u_[k].data() + first_particle;
+    const double* __restrict v = v_[k].data() + first_particle;
+    Real* __restrict out = next_u[k] + place;
+    const double frame = frame_[k];
+    for (std::int64_t row = first; row < past; ++row) {
+      u[row] += dt * v[row];
+      too_fast += std::abs(v[row]) < push.fastest ? 0 : 1;
+    }
+    for (std::int64_t row = first; row < past; ++row) out[row] = in_frame(u[row], frame);
+  }
   events.unstable = events.unstable || too_fast > 0;
 }
 
@@ -184,8 +214,11 @@ template <class Law, class Real>
 StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure) {
   if (steps_ % frame_interval == 0) follow_body();
   const double kick = first_kick_pending_ ? 0.5 * setup_.time_step : setup_.time_step;
-  const double work_pressure = 0.5 * (pressure + next_pressure);
   load_speed_ += setup_.time_step * std::abs(pressure) * largest_load_ / setup_.density;
+  const Push push{.pressure = pressure,
+                  .work_pressure = 0.5 * (pressure + next_pressure),
+                  .kick = kick,
+                  .fastest = 2 * setup_.lattice.spacing / setup_.time_step + 4 * load_speed_};
   std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
   if constexpr (Law::state_based) find_dilatations(per_thread);
   with_missing_halo([](parallel::HaloExchange<Real>& halo, std::span<Real* const> field) {
@@ -195,9 +228,7 @@ StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure)
   parallel::for_each_share(threads_, parts_.size(), [&](int thread, std::size_t begin, std::size_t end) {
     ThreadEvents& events = per_thread[static_cast<std::size_t>(thread)];
     for (std::size_t p = begin; p < end; ++p) {
-      sum_part(parts_[p], events, [&](Unit unit, const BlockSums<Real>& sums) {
-        move_unit(unit, sums, pressure, work_pressure, kick, events);
-      });
+      sum_part(parts_[p], events, [&](std::int32_t slot) { move_column(parts_[p], slot, push, events); });
     }
     look_for_rupture(events);
   });

@@ -21,10 +21,10 @@ namespace rhexis::bench {
 namespace {
 
 /// Micro-operations for one bond of 16 rows, both of its ends, on the two ports that 512-bit arithmetic has,
-/// from the disassembly of ColumnBody<Pmb, float>::sum_part (g++ 12, AVX-512): 31 arithmetic instructions, 12
-/// of them fused, among them an approximate root that takes 3, and 3 of masks. Loads and stores have other
+/// from the disassembly of ColumnBody<Pmb, float>::sum (g++ 12, AVX-512): 29 arithmetic instructions, 15 of
+/// them fused, among them an approximate root that takes 3, and 3 of masks. Loads and stores have other
 /// ports.
-constexpr double issued_a_bond = 36;
+constexpr double issued_a_bond = 34;
 
 constexpr double flop_per_directed_bond = peridynamics::flop_per_bond / 2;
 
