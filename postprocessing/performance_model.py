@@ -117,6 +117,7 @@ class Machine:
     latency_s: float
     bandwidth_B_s: float  # of a node, shared by its ranks
     cores_per_node: int
+    measured: bool = False  # latency and bandwidth, by runs; else stated
 
 
 def nodes_of(ranks, threads, cores_per_node):
@@ -130,25 +131,21 @@ def core_rate(problem, row):
 
 
 def solve_seconds(problem, ranks, threads, steps, rate, machine):
-    """Time of solving: compute at `rate` per core, then what is left of the exchange when the rank has done all that
-    does not wait for it, then the reduction that ends a step.
+    """Time of solving: compute at `rate` per core, then the exchange of the halo, then the reduction that ends a step.
 
-        step     = (n + packing) / (threads rate) + max(0, exchange - (n - halo) / (threads rate)) + 2 log2(ranks) latency
+        step     = (n + packing) / (threads rate) + exchange + 2 log2(ranks) latency
         exchange = messages latency + bytes (ranks of a node) / bandwidth
 
     as if every message left its node. None where the problem has fewer pieces than ranks."""
     share = problem.busiest(ranks)
     if share is None:
         return None
-    speed = threads * rate
-    exchange = interior = 0
+    exchange = 0
     if share.messages:
-        halo = share.bytes / problem.bytes
         ranks_of_node = min(ranks, max(1, machine.cores_per_node // threads))
         exchange = share.messages * machine.latency_s + share.bytes * ranks_of_node / machine.bandwidth_B_s
-        interior = max(0, share.particles - halo) / speed
     reduction = 2 * math.ceil(math.log2(ranks)) * machine.latency_s
-    return steps * ((share.particles + share.packing) / speed + max(0, exchange - interior) + reduction)
+    return steps * ((share.particles + share.packing) / (threads * rate) + exchange + reduction)
 
 
 def problem_of(record):

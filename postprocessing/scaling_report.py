@@ -86,8 +86,8 @@ def print_report(rows, ahead, fits, machine):
                   f"{row['peak_rss_bytes'] / 1e6:.0f}", number(row.get("speedup")), number(row.get("efficiency"), ".0%"),
                   number(row.get("predicted_wall_s")), number(row.get("prediction_error"), "+.0%")] for row in rows])
     if ahead:
-        print(f"\nPredictions, not measured; with nodes of {machine.cores_per_node} cores, {machine.latency_s:g} s a message, "
-              f"{machine.bandwidth_B_s:g} bytes/s:")
+        print(f"\nPredictions, not measured; with nodes of {machine.cores_per_node} cores, {machine.latency_s:.3g} s a message, "
+              f"{machine.bandwidth_B_s:.3g} bytes/s ({'as measured here' if machine.measured else 'as stated'}):")
         print_table(["study", "ranks x threads", "nodes", "predicted (s)", "speedup", "efficiency"],
                     [[row["study"], f"{row['ranks']} x {row['threads']}", str(row["nodes"]), f"{row['predicted_wall_s']:.3g}",
                       number(row["speedup"]), number(row["efficiency"], ".0%")] for row in ahead])

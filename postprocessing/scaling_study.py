@@ -18,7 +18,7 @@ operations and memory, where there are four sizes or more: p is the cores (stron
 particles of a wall.
 Predictions take their rate per core from the run on the fewest cores alone, and so are tested by all others; those for
 more cores than were measured are listed as predictions (formulas: performance_model.py; for walls, and trees that are not
-stored). Wall-clock time is that of the program, without mpirun's start. Writes scaling.csv, scaling.json, a PNG a study.
+stored). The network's latency and bandwidth are those that the runs measured between their first and last rank. Wall-clock time is that of the program, without mpirun's start. Writes scaling.csv, scaling.json, a PNG a study.
 """
 
 import argparse
@@ -29,6 +29,7 @@ import pathlib
 import re
 import shlex
 import shutil
+import statistics
 import sys
 
 from performance_model import Machine, core_rate, nodes_of, problem_of, solve_seconds
@@ -140,14 +141,29 @@ def compare_and_predict(rows, records, machine, beyond):
     return ahead
 
 
-def collect(plan, output, machine, beyond):
+def machine_of(found, options, cores_per_node):
+    """The network as stated, or else as the runs with most nodes, then most ranks, measured it; as is usual where none
+    did. Ranks that share cores measure how they take turns."""
+    costs = [(row["nodes"], row["ranks"], record["performance"]) for row, record in found
+             if row["cores"] <= row["nodes"] * cores_per_node and record["performance"].get("message_latency_s")]
+    most = max((cost[:2] for cost in costs), default=None)
+    best = [cost for *size, cost in costs if tuple(size) == most]
+    def value(stated, key, usual):
+        return stated or (statistics.median(cost[key] for cost in best) if best else usual)
+
+    return Machine(value(options.latency, "message_latency_s", 2e-6), value(options.bandwidth, "message_bandwidth_B_s", 12.5e9),
+                   cores_per_node, bool(best) and not (options.latency or options.bandwidth))
+
+
+def collect(plan, output, options, cores_per_node, beyond):
     """Rows of the finished runs, and of predictions beyond them; says what is missing."""
     rows, ahead, model = [], [], None
+    cases = [(case, *measured(plan, output, case)) for case in plan["cases"]]
+    for case in (case for case, row, _ in cases if row is None):
+        print(f"warning: no finished run in {output / 'runs' / case['folder']}", file=sys.stderr)
+    machine = machine_of([(row, record) for _, row, record in cases if row], options, cores_per_node)
     for study in ("strong", "weak", "sizes"):
-        pairs = [(case, *measured(plan, output, case)) for case in plan["cases"] if case["study"] == study]
-        for case in (case for case, row, _ in pairs if row is None):
-            print(f"warning: no finished run in {output / 'runs' / case['folder']}", file=sys.stderr)
-        found = [(row, record) for _, row, record in pairs if row]
+        found = [(row, record) for case, row, record in cases if row and case["study"] == study]
         if not found:
             continue
         of_study, records = map(list, zip(*found))
@@ -179,8 +195,8 @@ def parse_arguments():
     parser.add_argument("--collect", type=pathlib.Path, metavar="DIR", help="report on the finished jobs of DIR")
     parser.add_argument("--predict", type=positive(int), nargs="*", default=[2**k for k in range(1, 11)], metavar="CORES",
                         help="predict times on so many cores, default 2 to 1024")
-    parser.add_argument("--latency", type=positive(float), default=2e-6, help="of a message between nodes, s; default 2e-6")
-    parser.add_argument("--bandwidth", type=positive(float), default=12.5e9, help="of a node, bytes/s; default 12.5e9")
+    parser.add_argument("--latency", type=positive(float), help="of a message between nodes, s; default: as measured, or 2e-6")
+    parser.add_argument("--bandwidth", type=positive(float), help="of a node, bytes/s; default: as measured, or 12.5e9")
     parser.add_argument("--cores-per-node", type=positive(int), help="default: this machine's")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/scaling")
     options = parser.parse_args()
@@ -223,7 +239,7 @@ def main():
             print(f"for job in {shlex.quote(str(output))}/*.sbatch; do sbatch \"$job\"; done   # then --collect {output}")
             return
         run_here(plan, output, options.launcher)
-    collect(plan, output, Machine(options.latency, options.bandwidth, cores_per_node), beyond)
+    collect(plan, output, options, cores_per_node, beyond)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "parallel/link.hpp"
 #include "peridynamics/bond_kernel.hpp"
 
 namespace rhexis::app {
@@ -99,6 +100,10 @@ output::Performance RunBase::performance() {
   if (const auto own = traffic()) {
     p.exchange_s = comm_.all_reduce(own->seconds, parallel::Reduce::sum) / comm_.size();
     p.exchange_bytes = comm_.all_reduce(own->bytes, parallel::Reduce::sum);
+  }
+  if (const auto link = parallel::measure_link(comm_)) {
+    p.message_latency_s = link->latency_s;
+    p.message_bandwidth_B_s = link->bandwidth_B_s;
   }
   p.peak_rss_bytes = comm_.all_reduce(output::peak_resident_bytes(), parallel::Reduce::sum);
   p.node_hours = *p.wall_s * comm_.node_count() / 3600;

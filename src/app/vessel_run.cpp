@@ -129,6 +129,10 @@ bool VesselRun::pictures_due(long step, bool output_due) {
 void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   const double pressure = pressure_at(step) * vent_now_;
   {
+    const Stopwatch watch(spent_.solve);
+    body_->find_forces();  // once, for what is observed and for the next step
+  }
+  {
     const Stopwatch watch(with_output ? spent_.output : spent_.insitu);
     energy_.read();
     const peridynamics::Observation& observation = body_->observe(pressure);

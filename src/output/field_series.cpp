@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "output/atomic_file.hpp"
 #include "output/disk_space.hpp"
 #include "output/hdf5_file.hpp"
+#include "parallel/threads.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::output {
@@ -20,10 +22,13 @@ constexpr const char* unplanned_place = "unplanned";
 template <class Real>
 void interleave(const FieldView& view, Real* out) {
   const auto width = static_cast<std::size_t>(view.info.components);
-  for (std::size_t c = 0; c < width; ++c) {
-    const double* values = view.component[c];
-    for (std::size_t i = 0; i < view.count; ++i) out[i * width + c] = static_cast<Real>(values[i]);
-  }
+  const auto part = [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t c = 0; c < width; ++c) {
+      const double* values = view.component[c];
+      for (std::size_t i = begin; i < end; ++i) out[i * width + c] = static_cast<Real>(values[i]);
+    }
+  };
+  parallel::for_each_share(parallel::thread_count(), view.count, part);
 }
 
 std::string xdmf_item(std::int64_t rows, int components, const char* type, int bytes,
@@ -138,6 +143,7 @@ void FieldSeries::write(long step, const std::function<FieldView(const StoredFie
                         const std::function<std::string(const std::string& place)>& grid_of) {
   const auto planned = planned_places_.find(step);
   const std::string place = planned == planned_places_.end() ? unplanned_place : planned->second;
+  settle();
   if (std::erase_if(listed_, [&](const ListedStep& other) { return other.place == place; }) > 0) write_xdmf();
 
   std::vector<std::string> datasets;
@@ -147,10 +153,28 @@ void FieldSeries::write(long step, const std::function<FieldView(const StoredFie
     write_values(dataset_name(field.name, place), field.components, field.centring,
                  [&] { return view_of(field); });
   }
-  parallel::together<RunError>(communicator_, [&] { sync_to_disk(file_->path()); });
-
   listed_.push_back({place, grid_of(place)});
-  write_xdmf();
+  // Waiting for the disk takes no processor, so the run goes on meanwhile.
+  saving_ = std::async(std::launch::async, [file = file_->path(), list = xdmf_path_,
+                                            text = communicator_.is_root() ? xdmf() : ""] {
+    sync_to_disk(file);
+    if (!text.empty()) write_atomically(list, text);
+  });
+  const bool more_to_come = planned != planned_places_.end() && std::next(planned) != planned_places_.end();
+  if (!more_to_come) settle();
+}
+
+/// Until the step that was written last is on the disk; one that cannot get there is not listed.
+void FieldSeries::settle() {
+  try {
+    parallel::together<RunError>(communicator_, [&] {
+      if (saving_.valid()) saving_.get();
+    });
+  } catch (const RunError&) {
+    listed_.pop_back();
+    write_xdmf();
+    throw;
+  }
 }
 
 void FieldSeries::reserve(const std::vector<std::string>& datasets) {
@@ -195,18 +219,20 @@ std::string FieldSeries::xdmf_annotations(const std::vector<Annotation>& annotat
   return text;
 }
 
-void FieldSeries::write_xdmf() const {
-  parallel::on_root<RunError>(communicator_, [&] {
-    std::string text = fmt::format(
-        R"(<?xml version="1.0"?>
+std::string FieldSeries::xdmf() const {
+  std::string text = fmt::format(
+      R"(<?xml version="1.0"?>
 <Xdmf Version="3.0">
   <Domain>
     <Grid Name="{}" GridType="Collection" CollectionType="Temporal">
 )",
-        basename_);
-    for (const ListedStep& step : listed_) text += step.grid;
-    write_atomically(xdmf_path_, text + "    </Grid>\n  </Domain>\n</Xdmf>\n");
-  });
+      basename_);
+  for (const ListedStep& step : listed_) text += step.grid;
+  return text + "    </Grid>\n  </Domain>\n</Xdmf>\n";
+}
+
+void FieldSeries::write_xdmf() const {
+  parallel::on_root<RunError>(communicator_, [&] { write_atomically(xdmf_path_, xdmf()); });
 }
 
 }  // namespace rhexis::output

@@ -3,13 +3,14 @@
 ///
 /// All of an HDF5 file is laid out when it is made, and its structure reaches the disk then: a step adds
 /// values and nothing else, so whenever and however the program dies, all earlier steps can be read. A step
-/// that was never written takes no disk space. The XDMF file lists complete steps only, and is replaced in
-/// one step.
+/// that was never written takes no disk space. The XDMF file lists a step once it is on the disk, and is
+/// replaced in one step.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <map>
 #include <memory>
 #include <string>
@@ -72,7 +73,8 @@ class FieldSeries {
   void write_fixed(const std::string& name, const std::vector<std::int64_t>& values);
 
   /// Stores the fields of a moment, each by `view_of`, and lists it in the XDMF file as the grid that
-  /// `grid_of` writes when told the place of the step's data sets.
+  /// `grid_of` writes when told the place of the step's data sets. Does not wait for the disk but after the
+  /// last step of the plan, or one that is not in it; a failure there is thrown by the next call.
   void write(long step, const std::function<FieldView(const StoredField&)>& view_of,
              const std::function<std::string(const std::string& place)>& grid_of);
 
@@ -95,7 +97,9 @@ class FieldSeries {
   void write_values(const std::string& dataset, int components, Centring centring,
                     const std::function<FieldView()>& view);
   void reserve(const std::vector<std::string>& datasets);
+  std::string xdmf() const;
   void write_xdmf() const;
+  void settle();
 
   SeriesLayout layout_;
   std::vector<StoredField> fields_;
@@ -110,6 +114,7 @@ class FieldSeries {
   std::vector<ListedStep> listed_;  ///< complete steps, in the order of writing
   std::vector<float> singles_;      ///< values on their way to the file, in the one precision
   std::vector<double> doubles_;     ///< or the other
+  std::future<void> saving_;        ///< the step that was written last, to disk and into the XDMF file
 };
 
 /// The plan with a name for its files where it has none.

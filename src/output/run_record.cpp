@@ -69,6 +69,8 @@ void to_json(Json& json, const Performance& performance) {
                        {"flop", or_null(performance.flop)},
                        {"exchange_s", or_null(performance.exchange_s)},
                        {"exchange_bytes", or_null(performance.exchange_bytes)},
+                       {"message_latency_s", or_null(performance.message_latency_s)},
+                       {"message_bandwidth_B_s", or_null(performance.message_bandwidth_B_s)},
                        {"peak_rss_bytes", or_null(performance.peak_rss_bytes)},
                        {"node_hours", or_null(performance.node_hours)},
                        {"energy_J", or_null(performance.energy_J)}});

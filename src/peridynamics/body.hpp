@@ -93,6 +93,9 @@ class Body {
   /// done. Collective.
   virtual StepEvents advance(double pressure, double next_pressure) = 0;
 
+  /// Breaks what is due at the present time and sums forces and energies, which `observe` then finds done,
+  /// and `advance` too. Collective.
+  virtual void find_forces() = 0;
   /// Breaks what is due at the present time and evaluates all fields. Collective. The reference stays valid
   /// until the next call.
   virtual const Observation& observe(double pressure) = 0;
@@ -103,7 +106,7 @@ class Body {
 
   /// Undirected bonds that the whole body was born with. Collective.
   virtual std::int64_t bonds() const = 0;
-  /// Directed bonds whose forces were summed in steps so far, on this rank.
+  /// Directed bonds whose forces were summed so far, on this rank.
   virtual std::int64_t bond_evaluations() const = 0;
 
   /// Of halos so far, on this rank.

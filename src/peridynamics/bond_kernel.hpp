@@ -37,7 +37,7 @@ struct BondConstants {
   Real twice_xi[3] = {};  ///< 2 xi / |xi|^2
   Real weight;  ///< w V_i V_j / (spacing^6 |xi|): force is c spacing^6 sum weight g(t) y, of either end
   Real volume;  ///< V_j / spacing^3
-  Real energy_weight;   ///< w volume |xi|: energy density is c spacing^4 sum energy_weight s^2/2, halved
+  Real energy_weight;   ///< w V_i V_j |xi| / spacing^6: energy is c spacing^7 energy_weight s^2/2
   std::int32_t offset;  ///< of the partner in padded arrays, from the particle's own place
 };
 
@@ -59,7 +59,7 @@ struct BlockView {
   const Real* u[3];  ///< padded displacement, at the block's first row
   std::span<const BondConstants<Real>> bonds;
   std::uint16_t* intact;             ///< one word per bond, bit k: bond of row k exists and is unbroken
-  std::array<Real*, 3> others = {};  ///< sums of the other ends' force, padded, at the block's first row
+  std::array<Real*, 4> others = {};  ///< sums of the other ends' force and energy, padded, at the first row
   Real breaking_t;                   ///< of a uniform wall
   LocalProperties<Real> local = {};  ///< of one that is not, at the block's first row
   const Real* pressure = nullptr;    ///< of a state-based law, padded, at the block's first row
@@ -70,10 +70,10 @@ struct BlockView {
 template <class Real>
 struct BlockSums {
   alignas(64) Real force[3][parallel::block_rows] = {};  ///< added to
-  alignas(64) Real energy[parallel::block_rows];         ///< filled when observing only
+  alignas(64) Real energy[parallel::block_rows] = {};    ///< when observing, added to
   int broken = 0;                                        ///< directed bonds of these rows that broke now
   std::size_t broken_for_both = 0;                       ///< how many are in BlockView::broken
-  int crushed = 0;  ///< directed bonds shorter than half their length; counted when observing only
+  int crushed = 0;  ///< those shorter than half their length, twice if `both`; counted when observing
 };
 
 /// Floating-point operations of one bond that pulls, for both of its ends: 6 for eta and y, 11 for t, 13 for
@@ -204,8 +204,8 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
   if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
   if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
   Sums<D> f = sum;
-  std::array<Real*, 3> others = {};
-  if constexpr (both) others = {block.others[0] + lane, block.others[1] + lane, block.others[2] + lane};
+  std::array<Real*, 4> others = {};
+  for (std::size_t k = 0; both && k < (observing ? 4 : 3); ++k) others[k] = block.others[k] + lane;
   const std::uint16_t* const past = block.intact + run.past;
   std::uint16_t* next_word = block.intact + run.first;
   const BondConstants<Real>* next_bond = block.bonds.data() + run.first;
@@ -256,9 +256,11 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
     if constexpr (observing) {
       V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
       if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
-      f.energy = hn::Add(f.energy, hn::IfThenElseZero(pulling, w));
+      w = hn::IfThenElseZero(pulling, w);
+      f.energy = hn::Add(f.energy, w);
+      if constexpr (both) hn::StoreU(hn::Add(w, hn::LoadU(d, others[3] + there)), d, others[3] + there);
       const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
-      sums.crushed += static_cast<int>(hn::CountTrue(d, crushed));
+      sums.crushed += static_cast<int>(hn::CountTrue(d, crushed)) * (both ? 2 : 1);
     }
   } while (next_word != past);
   sum = f;
@@ -267,7 +269,7 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
 }  // namespace detail
 
 /// Breaks what is stretched too far, then adds the forces of what is left of `runs`. With `observing` also
-/// the strain energy (half of each bond's, its other half belongs to the other end). Only a `heterogeneous`
+/// their strain energy to either end. Only a `heterogeneous`
 /// wall pays for properties by place, only a `wrapped` one for displacements that are known up to whole
 /// periods, and only a state-based law for the pressures p of its particles, which add p_i + p_j to the
 /// stretch (materials/lps.hpp).
@@ -279,7 +281,7 @@ HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span
   const D d;
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
     detail::Sums<D> sum{hn::Load(d, sums.force[0] + lane), hn::Load(d, sums.force[1] + lane),
-                        hn::Load(d, sums.force[2] + lane), hn::Zero(d)};
+                        hn::Load(d, sums.force[2] + lane), hn::Load(d, sums.energy + lane)};
     for (const BondRun run : runs) {
       if (run.both) {
         detail::add_run<true, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums);
@@ -290,7 +292,7 @@ HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span
     hn::Store(sum.x, d, sums.force[0] + lane);
     hn::Store(sum.y, d, sums.force[1] + lane);
     hn::Store(sum.z, d, sums.force[2] + lane);
-    if constexpr (observing) hn::Store(hn::Mul(sum.energy, hn::Set(d, Real(0.5))), d, sums.energy + lane);
+    if constexpr (observing) hn::Store(sum.energy, d, sums.energy + lane);
   }
 }
 

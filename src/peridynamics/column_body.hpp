@@ -40,11 +40,11 @@ struct Unit {
   std::int32_t slot, block;
 };
 
-/// What a thread gathers while it works.
-struct ThreadEvents {
+/// What a thread gathers while it works; in cache lines of its own, fetched in pairs.
+struct alignas(128) ThreadEvents {
   explicit ThreadEvents(double energy_scale) : work(energy_scale), released(energy_scale) {}
   ExactSum work, released;  ///< J; of state-based laws
-  std::int64_t broken = 0;
+  std::int64_t broken = 0, crushed = 0;
   std::vector<Unit> broken_units;  ///< where they have an end
   bool damaged = false, unstable = false;
 };
@@ -55,10 +55,11 @@ struct Part {
   std::int32_t first_slot = 0, past_slot = 0;
   std::int64_t first_row = 0, past_row = 0;  ///< local
   std::vector<BondRun> runs;
-  std::vector<std::size_t> first_run;                      ///< of each column, into runs
-  std::array<hwy::AlignedFreeUniquePtr<Real[]>, 3> force;  ///< sums, each column as in padded arrays
-  std::vector<std::uint16_t> words;                        ///< of one column's bonds from beyond the part
-  std::vector<BrokenBond> broken;                          ///< now, of one block, for both ends
+  std::vector<std::size_t> first_run;  ///< of each column, into runs
+  /// Of force and, when observing, energy; each column as in padded arrays.
+  std::array<hwy::AlignedFreeUniquePtr<Real[]>, 4> sums;
+  std::vector<std::uint16_t> words;  ///< of one column's bonds from beyond the part
+  std::vector<BrokenBond> broken;    ///< now, of one block, for both ends
 
   std::int32_t first_block() const { return static_cast<std::int32_t>(first_row / block_rows); }
   std::int32_t past_block() const {
@@ -74,11 +75,10 @@ struct Push {
 };
 
 /// What a thread gathers while it observes.
-struct ThreadTotals {
+struct alignas(128) ThreadTotals {
   explicit ThreadTotals(double scale) : kinetic(scale), strain(scale), fracture(scale) {}
   ExactSum kinetic, strain, fracture;
   double max_damage = 0;
-  std::int64_t broken = 0, crushed = 0;
   std::int64_t ruptured_first = INT64_MAX, ruptured_last = -1;
 };
 
@@ -158,12 +158,14 @@ class ColumnBody final : public Body {
     u_ = displacement;
     v_ = velocity;
     first_kick_pending_ = true;
+    forces_known_ = false;
     follow_body();
     fill_padded();
   }
 
   void set_axial_profile(std::vector<double> profile) override { profile_ = std::move(profile); }
   StepEvents advance(double pressure, double next_pressure) override;
+  void find_forces() override;
   const Observation& observe(double pressure) override;
   Totals totals() const override;
   double max_displacement() const override;
@@ -214,6 +216,9 @@ class ColumnBody final : public Body {
     const std::int64_t bonds = first_bond_[unit.slot + 1] - first_bond_[unit.slot];
     return static_cast<std::size_t>(first_bond_[unit.slot] * domain_.blocks() + unit.block * bonds);
   }
+  std::size_t number(Unit unit) const {
+    return static_cast<std::size_t>(std::int64_t{unit.slot} * domain_.blocks() + unit.block);
+  }
   bool is_absent(Unit unit, int lane) const {
     return !absent_.empty() && absent_[padded_place(unit) + static_cast<std::size_t>(lane)] != 0;
   }
@@ -253,10 +258,14 @@ class ColumnBody final : public Body {
     const double spacing = setup_.lattice.spacing;
     return setup_.bond_constant * (spacing * spacing * spacing) * spacing;
   }
+  /// Of a column's particles, in spacings cubed.
+  double relative_volume(std::size_t column) const {
+    const double spacing = setup_.lattice.spacing;
+    return setup_.lattice.volume(column) / (spacing * spacing * spacing);
+  }
   /// Factor that makes force density, N/m3, of a block's sums.
   double bond_force_density(std::size_t column) const {
-    const double spacing = setup_.lattice.spacing, unit = spacing * spacing * spacing;
-    return setup_.bond_constant * unit * (unit / setup_.lattice.volume(column));
+    return energy_scale() / (setup_.lattice.spacing * relative_volume(column));
   }
   /// A sum as another run saved it.
   ExactSum restored(const std::array<double, 2>& parts) const {
@@ -285,9 +294,10 @@ class ColumnBody final : public Body {
                      const Use& use);
   void break_other_ends(Part<Real>& part, std::int32_t slot, std::int64_t row, std::size_t count,
                         ThreadEvents& events);
+  template <bool observing>
   void add_from_beyond(Part<Real>& part, std::int32_t slot, std::int64_t row, std::span<const BondRun> runs,
                        ThreadEvents& events);
-  template <class Use>
+  template <bool observing, class Use>
   void sum_part(Part<Real>& part, ThreadEvents& events, const Use& use);
   double breaking_energy(Unit unit, const BondConstants<Real>& bond, std::uint16_t broken) const;
   std::pair<std::int64_t, std::int64_t> free_rows(std::int64_t begin, std::int64_t past, int component) const;
@@ -295,7 +305,7 @@ class ColumnBody final : public Body {
   std::uint16_t broken(Unit unit, std::size_t b) const;
   void find_damage(Unit unit, double (&damage)[block_rows]) const;
   bool has_ruptured(Unit unit) const;
-  static void note_broken(Unit unit, int broken, ThreadEvents& events);
+  void note_broken(Unit unit, int broken, ThreadEvents& events);
   void look_for_rupture(ThreadEvents& events) const;
   double fracture_energy(Unit unit) const;
   double dilatation_energy(double theta, std::size_t place) const;
@@ -303,12 +313,8 @@ class ColumnBody final : public Body {
   void find_dilatations(std::vector<ThreadEvents>& per_thread);
   void push_column(const Part<Real>& part, std::int32_t slot, const Push& push, ExactSum& work);
   void move_column(const Part<Real>& part, std::int32_t slot, const Push& push, ThreadEvents& events);
-  void observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals);
-  template <class PerThread, class Work>
-  void with_halo(parallel::HaloExchange<Real>& halo, std::span<Real* const> field,
-                 std::vector<PerThread>& per_thread, const Work& work);
-  template <class Use>
-  void with_missing_halo(const Use& use);
+  void observe_unit(const Part<Real>& part, Unit unit, double pressure, double kick, ThreadTotals& totals);
+  void prepare_forces(std::vector<ThreadEvents>& per_thread);
 
   Law law_;
   BodySetup setup_;
@@ -339,7 +345,8 @@ class ColumnBody final : public Body {
   bool first_kick_pending_ = true;  ///< v_ is at the same time as u_
   long steps_ = 0;
   bool damaged_ = false;
-  std::int64_t pending_broken_ = 0;  ///< broken while observing, to be told by the next step
+  bool forces_known_ = false;                             ///< parts hold the present forces and energies
+  std::int64_t pending_broken_ = 0;                       ///< found broken before the step that tells of it
   std::int64_t born_directed_ = 0, intact_directed_ = 0;  ///< bonds of owned particles
   std::int64_t bond_evaluations_ = 0;
   ExactSum work_;
@@ -351,6 +358,9 @@ class ColumnBody final : public Body {
   std::vector<std::pair<std::int64_t, std::int64_t>> free_rows_;  ///< of the whole body, along each axis
   Observation observation_;
   ThreadTotals observed_{1.0};
+  std::int64_t crushed_ = 0;             ///< directed bonds, when forces were last found
+  std::vector<char> changed_;            ///< [units] bonds broke since damage was last found
+  std::vector<double> fracture_energy_;  ///< J, [units] when damage was last found
 };
 
 }  // namespace rhexis::peridynamics

@@ -22,7 +22,9 @@ void ColumnBody<Law, Real>::dilate_unit(Unit unit, ThreadEvents& events) {
   note_broken(unit, sums.broken, events);
 
   const Lattice& lattice = setup_.lattice;
-  const double per_extension = 3 / Law::weighted_volume(lattice.horizon / lattice.spacing);
+  const std::size_t column = global_column(unit.slot);
+  const double per_extension =
+      3 / (Law::weighted_volume(lattice.horizon / lattice.spacing) * relative_volume(column));
   double released = 0;
   for (int lane = 0; lane < domain_.rows_in(unit.block); ++lane) {
     const std::size_t place = padded_place(unit) + static_cast<std::size_t>(lane);
@@ -34,13 +36,23 @@ void ColumnBody<Law, Real>::dilate_unit(Unit unit, ThreadEvents& events) {
       released += dilatation_energy(before, place) - dilatation_energy(theta, place);
     }
   }
-  events.released.add(lattice.volume(global_column(unit.slot)) * released);
+  events.released.add(lattice.volume(column) * released);
 }
 
 template <class Law, class Real>
 void ColumnBody<Law, Real>::find_dilatations(std::vector<ThreadEvents>& per_thread) {
+  const auto dilate = [&](const std::vector<Unit>& units) {
+    parallel::for_each_share(threads_, units.size(), [&](int thread, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        dilate_unit(units[i], per_thread[static_cast<std::size_t>(thread)]);
+    });
+  };
+  // The halo travels while units that do not need it are done.
   const auto u = current();
-  with_halo(halo_, u, per_thread, [&](Unit unit, ThreadEvents& events) { dilate_unit(unit, events); });
+  halo_.start(u);
+  dilate(interior_);
+  halo_.finish(u);
+  dilate(boundary_);
   for (const ThreadEvents& t : per_thread) state_->released.add(t.released);
 }
 

@@ -29,7 +29,8 @@ double ColumnBody<Law, Real>::breaking_energy(Unit unit, const BondConstants<Rea
 template <class Law, class Real>
 double ColumnBody<Law, Real>::fracture_energy(Unit unit) const {
   const double s0 = setup_.critical_stretch;
-  const double per_weight = 0.25 * energy_scale() * s0 * s0 * setup_.lattice.volume(global_column(unit.slot));
+  const double spacing = setup_.lattice.spacing;
+  const double per_weight = 0.25 * energy_scale() * s0 * s0 * (spacing * spacing * spacing);
   const auto bonds = bonds_of(unit);
   double fracture = 0;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
@@ -40,28 +41,26 @@ double ColumnBody<Law, Real>::fracture_energy(Unit unit) const {
 }
 
 template <class Law, class Real>
-void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick, ThreadTotals& totals) {
-  BlockSums<Real> sums;
-  const BondRun all{0, static_cast<std::int32_t>(bonds_of(unit).size()), false};
-  sum<true>(view(unit), {&all, 1}, sums);
-  totals.broken += sums.broken;
-  totals.crushed += sums.crushed;
-
+void ColumnBody<Law, Real>::observe_unit(const Part<Real>& part, Unit unit, double pressure, double kick,
+                                         ThreadTotals& totals) {
   const std::size_t column = global_column(unit.slot);
   const Lattice& lattice = setup_.lattice;
   const double force_scale = bond_force_density(column);
+  const double energy_scale = 0.5 * this->energy_scale() / relative_volume(column);
   const double particle_volume = lattice.volume(column);
   const double load[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
   double space[block_rows];
   const double* share = load_shares(unit, space);
   const std::size_t first = particle(unit);
+  const std::size_t in_part = padded_place({unit.slot - part.first_slot, unit.block});
   const int rows = domain_.rows_in(unit.block);
 
   double speed2 = 0, strain = 0;
   for (int k = 0; k < 3; ++k) {
     const auto [first_free, past_free] = free_rows(unit, k);
+    const Real* const sums = part.sums[k].get() + in_part;
     for (int lane = 0; lane < rows; ++lane) {
-      const double force = force_scale * static_cast<double>(sums.force[k][lane]) + share[lane] * load[k];
+      const double force = force_scale * static_cast<double>(sums[lane]) + share[lane] * load[k];
       const bool moves = lane >= first_free && lane < past_free;
       const double v = v_[k][first + lane] + (moves ? kick * force / setup_.density : 0.0);
       observation_.force_density[k][first + lane] = force;
@@ -69,22 +68,24 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
       speed2 += v * v;
     }
   }
-  // While nothing is broken nobody need look for it.
-  const bool unbroken = intact_directed_ == born_directed_ && sums.broken == 0;
-  double damage_of[block_rows] = {};
-  if (!unbroken) find_damage(unit, damage_of);
+  double* const damage = observation_.damage.data() + first;
+  if (std::exchange(changed_[number(unit)], char{0})) {
+    double damage_of[block_rows];
+    find_damage(unit, damage_of);
+    for (int lane = 0; lane < rows; ++lane)
+      damage[lane] = is_absent(unit, lane) ? std::numeric_limits<double>::quiet_NaN() : damage_of[lane];
+    fracture_energy_[number(unit)] = fracture_energy(unit);
+  }
+  const Real* const energies = part.sums[3].get() + in_part;
   for (int lane = 0; lane < rows; ++lane) {
-    double energy = energy_scale() * static_cast<double>(sums.energy[lane]);
+    double energy = energy_scale * static_cast<double>(energies[lane]);
     if constexpr (Law::state_based) {
       energy += dilatation_energy(state_->dilatation[first + lane], padded_place(unit) + lane);
     }
-    const double damage = damage_of[lane];
     observation_.strain_energy_density[first + lane] = energy;
-    observation_.damage[first + lane] =
-        is_absent(unit, lane) ? std::numeric_limits<double>::quiet_NaN() : damage;
     strain += energy;
-    totals.max_damage = std::max(totals.max_damage, damage);
-    if (damage >= rupture_damage) {
+    totals.max_damage = std::max(totals.max_damage, damage[lane]);  // of absent particles: not a number
+    if (damage[lane] >= rupture_damage) {
       const std::int64_t row = domain_.layout().first_row + unit.block * block_rows + lane;
       totals.ruptured_first = std::min(totals.ruptured_first, row);
       totals.ruptured_last = std::max(totals.ruptured_last, row);
@@ -92,8 +93,26 @@ void ColumnBody<Law, Real>::observe_unit(Unit unit, double pressure, double kick
   }
   totals.kinetic.add(0.5 * setup_.density * particle_volume * speed2);
   totals.strain.add(particle_volume * strain);
+  if (const double fracture = fracture_energy_[number(unit)]; fracture > 0) totals.fracture.add(fracture);
+}
 
-  if (!unbroken) totals.fracture.add(fracture_energy(unit));
+template <class Law, class Real>
+void ColumnBody<Law, Real>::find_forces() {
+  if (std::exchange(forces_known_, true)) return;
+  if (steps_ % frame_interval == 0) follow_body();  // as the step would that takes over these forces
+  std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
+  prepare_forces(per_thread);
+  parallel::for_each_share(threads_, parts_.size(), [&](int thread, std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      sum_part<true>(parts_[p], per_thread[static_cast<std::size_t>(thread)], [](std::int32_t) {});
+  });
+  crushed_ = 0;
+  for (const ThreadEvents& t : per_thread) {
+    crushed_ += t.crushed;
+    intact_directed_ -= t.broken;
+    pending_broken_ += t.broken;
+  }
+  bond_evaluations_ += intact_directed_;
 }
 
 template <class Law, class Real>
@@ -106,16 +125,17 @@ const Observation& ColumnBody<Law, Real>::observe(double pressure) {
   observation_.strain_energy_density.resize(particles);
   observation_.damage.resize(particles);
 
+  find_forces();
   const double kick = first_kick_pending_ ? 0.0 : 0.5 * setup_.time_step;
   std::vector<ThreadTotals> per_thread(static_cast<std::size_t>(threads_), ThreadTotals(setup_.energy_scale));
-  std::vector<ThreadEvents> breaking(per_thread.size(), ThreadEvents(setup_.energy_scale));
-  if constexpr (Law::state_based) find_dilatations(breaking);
-  std::int64_t dilating = 0;  // broken before the forces
-  for (const ThreadEvents& t : breaking) dilating += t.broken;
-  intact_directed_ -= dilating;
-  with_missing_halo([&](parallel::HaloExchange<Real>& halo, std::span<Real* const> field) {
-    with_halo(halo, field, per_thread,
-              [&](Unit unit, ThreadTotals& totals) { observe_unit(unit, pressure, kick, totals); });
+  parallel::for_each_share(threads_, parts_.size(), [&](int thread, std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      const Part<Real>& part = parts_[p];
+      for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
+        for (std::int32_t block = part.first_block(); block < part.past_block(); ++block)
+          observe_unit(part, {slot, block}, pressure, kick, per_thread[static_cast<std::size_t>(thread)]);
+      }
+    }
   });
   observed_ = per_thread.front();
   for (std::size_t t = 1; t < per_thread.size(); ++t) {
@@ -123,14 +143,10 @@ const Observation& ColumnBody<Law, Real>::observe(double pressure) {
     observed_.kinetic.add(other.kinetic);
     observed_.strain.add(other.strain);
     observed_.fracture.add(other.fracture);
-    observed_.broken += other.broken;
-    observed_.crushed += other.crushed;
     observed_.max_damage = std::max(observed_.max_damage, other.max_damage);
     observed_.ruptured_first = std::min(observed_.ruptured_first, other.ruptured_first);
     observed_.ruptured_last = std::max(observed_.ruptured_last, other.ruptured_last);
   }
-  intact_directed_ -= observed_.broken;
-  pending_broken_ += dilating + observed_.broken;
   damaged_ = damaged_ || observed_.max_damage >= rupture_damage;
   return observation_;
 }
@@ -146,7 +162,7 @@ Totals ColumnBody<Law, Real>::totals() const {
   totals.max_displacement = max_displacement();
   totals.max_damage = comm_.all_reduce(observed_.max_damage, parallel::Reduce::max);
   totals.broken_bonds = comm_.all_reduce(born_directed_ - intact_directed_, parallel::Reduce::sum) / 2;
-  totals.crushed_bonds = comm_.all_reduce(observed_.crushed, parallel::Reduce::sum) / 2;
+  totals.crushed_bonds = comm_.all_reduce(crushed_, parallel::Reduce::sum) / 2;
   const std::int64_t first = comm_.all_reduce(observed_.ruptured_first, parallel::Reduce::min);
   const std::int64_t last = comm_.all_reduce(observed_.ruptured_last, parallel::Reduce::max);
   if (last >= first)
@@ -156,11 +172,13 @@ Totals ColumnBody<Law, Real>::totals() const {
 
 template <class Law, class Real>
 double ColumnBody<Law, Real>::max_displacement() const {
-  double largest = 0;
-  for (std::size_t i = 0; i < u_[0].size(); ++i) {
-    largest = std::max(largest, u_[0][i] * u_[0][i] + u_[1][i] * u_[1][i] + u_[2][i] * u_[2][i]);
-  }
-  return std::sqrt(comm_.all_reduce(largest, parallel::Reduce::max));
+  std::vector<double> largest(static_cast<std::size_t>(threads_));
+  parallel::for_each_share(threads_, u_[0].size(), [&](int thread, std::size_t begin, std::size_t end) {
+    double& mine = largest[static_cast<std::size_t>(thread)];
+    for (std::size_t i = begin; i < end; ++i)
+      mine = std::max(mine, u_[0][i] * u_[0][i] + u_[1][i] * u_[1][i] + u_[2][i] * u_[2][i]);
+  });
+  return std::sqrt(comm_.all_reduce(*std::ranges::max_element(largest), parallel::Reduce::max));
 }
 
 }  // namespace rhexis::peridynamics

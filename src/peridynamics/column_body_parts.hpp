@@ -38,8 +38,8 @@ void ColumnBody<Law, Real>::make_parts() {
     part.first_run.push_back(part.runs.size());
     part.words.resize(longest);
     part.broken.resize(longest * static_cast<std::size_t>(block_rows));
-    for (auto& force : part.force)
-      force = hwy::AllocateAligned<Real>(domain_.stride() * (part.first_run.size() - 1));
+    for (auto& sums : part.sums)
+      sums = hwy::AllocateAligned<Real>(domain_.stride() * (part.first_run.size() - 1));
   }
   find_opposites();
 }
@@ -128,6 +128,7 @@ void ColumnBody<Law, Real>::break_other_ends(Part<Real>& part, std::int32_t slot
 
 /// Bonds from 16 rows beyond the part, from `row` on, into it.
 template <class Law, class Real>
+template <bool observing>
 void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot, std::int64_t row,
                                             std::span<const BondRun> runs, ThreadEvents& events) {
   std::uint16_t any = 0;
@@ -144,50 +145,49 @@ void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot,
   if (any == 0) return;
   BlockSums<Real> of_the_rows;  // which are another part's
   for (const BondRun& run : runs) {
-    if (run.both) sum<false>(view(part, slot, row, part.words.data()), {&run, 1}, of_the_rows);
+    if (run.both) sum<observing>(view(part, slot, row, part.words.data()), {&run, 1}, of_the_rows);
   }
   break_other_ends(part, slot, row, of_the_rows.broken_for_both, events);
 }
 
-/// Sums the forces of a part's particles in `part.force`; calls `use(slot)` for each column once it is done.
+/// Sums the forces of a part's particles, and their energies when observing, in `part.sums`; calls
+/// `use(slot)` for each column once it is done.
 template <class Law, class Real>
-template <class Use>
+template <bool observing, class Use>
 void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, const Use& use) {
   const PointLayout& layout = domain_.layout();
   const bool below = periodic_ || layout.first_row + part.first_row > 0;
   const bool above = periodic_ || layout.first_row + part.past_row < layout.rows;
   const std::int32_t first_block = part.first_block(), past_block = part.past_block();
+  const auto add_block = [&](Unit unit, std::span<const BondRun> runs) {
+    const BlockView<Real> here =
+        view(part, unit.slot, unit.block * block_rows, intact_.data() + first_word(unit));
+    BlockSums<Real> sums;
+    for (std::size_t k = 0; k < 3; ++k) std::copy_n(here.others[k], block_rows, sums.force[k]);
+    if constexpr (observing) std::copy_n(here.others[3], block_rows, sums.energy);
+    sum<observing>(here, runs, sums);
+    for (std::size_t k = 0; k < 3; ++k) std::copy_n(sums.force[k], block_rows, here.others[k]);
+    if constexpr (observing) std::copy_n(sums.energy, block_rows, here.others[3]);
+    note_broken(unit, sums.broken, events);
+    break_other_ends(part, unit.slot, unit.block * block_rows, sums.broken_for_both, events);
+    events.crushed += sums.crushed;
+  };
   for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
     const BondRun& before = part.runs[part.first_run[slot - part.first_slot]];
     // Bonds that leave the part add to rows beyond it, which nobody reads.
     const BlockView<Real> below_part = view(part, slot, part.first_row - block_rows, nullptr);
-    for (Real* force : below_part.others)
-      std::fill_n(force, (past_block - first_block + 2) * block_rows, Real{0});
-    for (std::int32_t block = first_block; before.past > 0 && block < past_block; ++block) {
-      BlockSums<Real> sums;
-      const Unit unit{slot, block};
-      const BlockView<Real> here = view(part, slot, block * block_rows, intact_.data() + first_word(unit));
-      sum<false>(here, {&before, 1}, sums);
-      for (int k = 0; k < 3; ++k) std::copy_n(sums.force[k], block_rows, here.others[k]);
-      note_broken(unit, sums.broken, events);
-    }
+    for (std::size_t k = 0; k < (observing ? 4 : 3); ++k)
+      std::fill_n(below_part.others[k], (past_block - first_block + 2) * block_rows, Real{0});
+    for (std::int32_t block = first_block; before.past > 0 && block < past_block; ++block)
+      add_block({slot, block}, {&before, 1});
   }
   for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
     const std::size_t* const run = part.first_run.data() + (slot - part.first_slot);
     const std::span<const BondRun> runs(part.runs.data() + run[0] + 1, part.runs.data() + run[1]);
-    if (below) add_from_beyond(part, slot, part.first_row - block_rows, runs, events);
-    for (std::int32_t block = first_block; block < past_block; ++block) {
-      BlockSums<Real> sums;
-      const Unit unit{slot, block};
-      const BlockView<Real> here = view(part, slot, block * block_rows, intact_.data() + first_word(unit));
-      for (int k = 0; k < 3; ++k) std::copy_n(here.others[k], block_rows, sums.force[k]);
-      sum<false>(here, runs, sums);
-      break_other_ends(part, slot, block * block_rows, sums.broken_for_both, events);
-      for (int k = 0; k < 3; ++k) std::copy_n(sums.force[k], block_rows, here.others[k]);
-      note_broken(unit, sums.broken, events);
-    }
+    if (below) add_from_beyond<observing>(part, slot, part.first_row - block_rows, runs, events);
+    for (std::int32_t block = first_block; block < past_block; ++block) add_block({slot, block}, runs);
     use(slot);
-    if (above) add_from_beyond(part, slot, part.past_row, runs, events);
+    if (above) add_from_beyond<observing>(part, slot, part.past_row, runs, events);
   }
 }
 

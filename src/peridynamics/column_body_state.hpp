@@ -7,16 +7,14 @@ namespace rhexis::peridynamics {
 
 template <class Law, class Real>
 void ColumnBody<Law, Real>::make_bonds() {
-  const Lattice& lattice = setup_.lattice;
-  const double unit_volume = lattice.spacing * lattice.spacing * lattice.spacing;
   const PointLayout& layout = domain_.layout();
   first_bond_.push_back(0);
   for (std::int64_t c = 0; c < layout.column_count; ++c) {
     const auto column = static_cast<std::size_t>(layout.first_column + c);
     for (std::int64_t b = setup_.families.first[column]; b < setup_.families.first[column + 1]; ++b) {
       const Bond& bond = setup_.families.bonds[b];
-      const double own_volume = lattice.volume(column) / unit_volume;
-      const double volume = lattice.volume(static_cast<std::size_t>(bond.other)) / unit_volume;
+      const double own_volume = relative_volume(column);
+      const double volume = relative_volume(static_cast<std::size_t>(bond.other));
       const auto offset = static_cast<std::int64_t>(domain_.padded(domain_.slot(bond.other))) +
                           bond.row_offset -
                           static_cast<std::int64_t>(domain_.padded(static_cast<std::size_t>(c)));
@@ -24,7 +22,7 @@ void ColumnBody<Law, Real>::make_bonds() {
       BondConstants<Real> constants{.inverse_length2 = Real(inverse_length2),
                                     .weight = Real(bond.weight * (own_volume * volume) / bond.length),
                                     .volume = Real(volume),
-                                    .energy_weight = Real(bond.weight * volume * bond.length),
+                                    .energy_weight = Real(bond.weight * (own_volume * volume) * bond.length),
                                     .offset = static_cast<std::int32_t>(offset)};
       for (int k = 0; k < 3; ++k) {
         constants.xi[k] = Real(bond.xi[k]);
@@ -36,6 +34,8 @@ void ColumnBody<Law, Real>::make_bonds() {
   }
   family_volume_.resize(static_cast<std::size_t>(layout.local_count()));
   intact_.resize(bonds_.size() * static_cast<std::size_t>(domain_.blocks()));
+  changed_.resize(static_cast<std::size_t>(layout.column_count * domain_.blocks()), 1);
+  fracture_energy_.resize(changed_.size());
   for (std::int32_t slot = 0; slot < layout.column_count; ++slot) {
     for (std::int32_t block = 0; block < domain_.blocks(); ++block) {
       const Unit unit{slot, block};
@@ -212,6 +212,8 @@ void ColumnBody<Law, Real>::restore(const Saved& saved) {
   frame_ = saved.frame;
   per_period_ = saved.wrapped ? 1 / wrap_period : 0;
   steps_ = saved.frame_phase;
+  forces_known_ = false;
+  std::ranges::fill(changed_, char{1});
   auto word = saved.words.begin();
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {
     for (std::size_t b = 0; b < bonds_of({slot, 0}).size(); ++b) {

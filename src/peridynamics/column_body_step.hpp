@@ -24,7 +24,7 @@ BlockView<Real> ColumnBody<Law, Real>::view(Part<Real>& part, std::int32_t slot,
   BlockView<Real> block = view(slot, row, words);
   const std::size_t place =
       domain_.padded(static_cast<std::size_t>(slot - part.first_slot)) + static_cast<std::size_t>(row);
-  for (std::size_t k = 0; k < 3; ++k) block.others[k] = part.force[k].get() + place;
+  for (std::size_t k = 0; k < 4; ++k) block.others[k] = part.sums[k].get() + place;
   block.broken = part.broken.data();
   return block;
 }
@@ -105,6 +105,7 @@ void ColumnBody<Law, Real>::note_broken(Unit unit, int broken, ThreadEvents& eve
   if (broken == 0) return;
   events.broken += broken;
   events.broken_units.push_back(unit);
+  changed_[number(unit)] = 1;
 }
 
 /// Once all bonds of the units are broken that are due.
@@ -116,34 +117,19 @@ void ColumnBody<Law, Real>::look_for_rupture(ThreadEvents& events) const {
   events.broken_units.clear();
 }
 
-/// Runs `work(unit, per_thread[t])` over all units; the halo of `field` travels while units that do not need
-/// it are done.
+/// Has what forces need of other particles: a state-based law's dilatations, then the halo.
 template <class Law, class Real>
-template <class PerThread, class Work>
-void ColumnBody<Law, Real>::with_halo(parallel::HaloExchange<Real>& halo, std::span<Real* const> field,
-                                      std::vector<PerThread>& per_thread, const Work& work) {
-  const auto run = [&](const std::vector<Unit>& units) {
-    parallel::for_each_share(threads_, units.size(), [&](int thread, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) work(units[i], per_thread[thread]);
-    });
-  };
-  halo.start(field);
-  run(interior_);
-  halo.finish(field);
-  run(boundary_);
-}
-
-/// Calls `use(halo, field)` for what forces are still missing: the displacement, or the dilatations' pressure
-/// where the law has one.
-template <class Law, class Real>
-template <class Use>
-void ColumnBody<Law, Real>::with_missing_halo(const Use& use) {
+void ColumnBody<Law, Real>::prepare_forces(std::vector<ThreadEvents>& per_thread) {
   if constexpr (Law::state_based) {
+    find_dilatations(per_thread);
     Real* const pressure = state_->pressure.data();
-    use(state_->halo, std::span<Real* const>(&pressure, 1));
+    const std::span<Real* const> field(&pressure, 1);
+    state_->halo.start(field);
+    state_->halo.finish(field);
   } else {
     const auto u = current();
-    use(halo_, std::span<Real* const>(u));
+    halo_.start(u);
+    halo_.finish(u);
   }
 }
 
@@ -164,12 +150,15 @@ void ColumnBody<Law, Real>::push_column(const Part<Real>& part, std::int32_t slo
       const auto [first, past] = free_rows(unit, k);
       const double velocity = push.kick * (push.pressure * loads[k] / setup_.density);
       double* v = v_[k].data() + particle(unit);
-      double path = 0;
+      double path[block_rows] = {};
       for (int lane = first; lane < past; ++lane) {
         v[lane] += velocity * share[lane];
-        path += share[lane] * v[lane];
+        path[lane] = share[lane] * v[lane];
       }
-      work_of_block += loads[k] * path;
+      for (int half = block_rows / 2; half > 0; half /= 2) {
+        for (int lane = 0; lane < half; ++lane) path[lane] += path[half + lane];
+      }
+      work_of_block += loads[k] * path[0];
     }
     work.add(path_work * work_of_block);
   }
@@ -190,7 +179,7 @@ void ColumnBody<Law, Real>::move_column(const Part<Real>& part, std::int32_t slo
   // Loops of their own and nothing shared between rows but a count: compilers then make vectors of them.
   for (int k = 0; k < 3; ++k) {
     const auto [first, past] = free_rows(part.first_row, part.past_row, k);
-    const Real* __restrict force = part.force[k].get() + place_in_part;
+    const Real* __restrict force = part.sums[k].get() + place_in_part;
     double* __restrict v = v_[k].data() + first_particle;
     for (std::int64_t row = first; row < past; ++row) v[row] += bond_kick * static_cast<double>(force[row]);
   }
@@ -220,15 +209,18 @@ StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure)
                   .kick = kick,
                   .fastest = 2 * setup_.lattice.spacing / setup_.time_step + 4 * load_speed_};
   std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
-  if constexpr (Law::state_based) find_dilatations(per_thread);
-  with_missing_halo([](parallel::HaloExchange<Real>& halo, std::span<Real* const> field) {
-    halo.start(field);
-    halo.finish(field);
-  });
+  const bool summing = !std::exchange(forces_known_, false);
+  if (summing) prepare_forces(per_thread);
   parallel::for_each_share(threads_, parts_.size(), [&](int thread, std::size_t begin, std::size_t end) {
     ThreadEvents& events = per_thread[static_cast<std::size_t>(thread)];
     for (std::size_t p = begin; p < end; ++p) {
-      sum_part(parts_[p], events, [&](std::int32_t slot) { move_column(parts_[p], slot, push, events); });
+      Part<Real>& part = parts_[p];
+      const auto move = [&](std::int32_t slot) { move_column(part, slot, push, events); };
+      if (summing) {
+        sum_part<false>(part, events, move);
+      } else {
+        for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) move(slot);
+      }
     }
     look_for_rupture(events);
   });
@@ -246,7 +238,7 @@ StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure)
     damaged_ = damaged_ || t.damaged;
   }
   events.damaged = damaged_;
-  bond_evaluations_ += intact_directed_;
+  if (summing) bond_evaluations_ += intact_directed_;
   return events;
 }
 

@@ -117,7 +117,7 @@ void OpeningGauge::look_at(std::size_t column, Rows& rows) const {
     const auto bin = std::min(bins_ - 1, static_cast<std::size_t>(turn(px, py) * static_cast<double>(bins_)));
     rows.occupied[row * words + bin / 64] |= std::uint64_t{1} << (bin % 64);
     ++rows.particles[row];
-    rows.radii[row] += std::llround(std::min(std::hypot(px, py) / radius_quantum_, 0x1p40));
+    rows.radii[row] += std::llround(std::min(std::sqrt(px * px + py * py) / radius_quantum_, 0x1p40));
     const std::size_t place = row * sectors_ + sector;
     rows.lowest[place] = std::min(rows.lowest[place], pz);
     rows.highest[place] = std::max(rows.highest[place], pz);

@@ -2,6 +2,9 @@
 
 #include <stdexcept>
 
+#include "parallel/communicator.hpp"
+#include "parallel/threads.hpp"
+
 namespace rhexis::peridynamics {
 namespace {
 
@@ -42,13 +45,15 @@ template <class Displacement>
 FieldView ParticleSource::fill_positions(std::string_view name, const Displacement& u) {
   const PointLayout& l = layout();
   for (auto& component : positions_) component.resize(static_cast<std::size_t>(l.local_count()));
-  std::size_t i = 0;
-  for (std::int64_t c = 0; c < l.column_count; ++c) {
-    for (std::int64_t r = 0; r < l.row_count; ++r, ++i) {
-      const auto x = body_->reference_position(c, r);
+  const auto rows = static_cast<std::size_t>(l.row_count);
+  const auto fill = [&](int, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto x =
+          body_->reference_position(static_cast<std::int64_t>(i / rows), static_cast<std::int64_t>(i % rows));
       for (std::size_t k = 0; k < 3; ++k) positions_[k][i] = x[k] + u(k, i);
     }
-  }
+  };
+  parallel::for_each_share(parallel::thread_count(), positions_[0].size(), fill);
   return vector_view({name, "m", 3}, positions_);
 }
 

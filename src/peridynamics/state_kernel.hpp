@@ -6,7 +6,7 @@
 
 namespace rhexis::peridynamics {
 
-/// Sums over each row's family of w V_j e / spacing^4.
+/// Sums over each row's family of w V_i V_j e / spacing^7.
 template <class Real>
 struct ExtensionSums {
   alignas(64) Real intact[parallel::block_rows];

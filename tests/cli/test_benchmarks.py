@@ -90,7 +90,7 @@ class Script(unittest.TestCase):
         for damage, intact in (("scattered25", 0.75), ("scattered75", 0.25), ("cracked25", 0.75), ("cracked75", 0.25)):
             self.assertAlmostEqual(walls[damage]["bonds_a_particle"] / whole, intact, delta=0.02, msg=damage)
         for case in walls.values():
-            self.assertAlmostEqual(case["flop_per_s"] / case["bonds_per_s"], 20.5)
+            self.assertAlmostEqual(case["flop_per_s"] / case["bonds_per_s"], 21.5)
 
 
 if __name__ == "__main__":

@@ -163,6 +163,12 @@ class Study(unittest.TestCase):
             self.assertEqual(row["predicted_wall_s"] == "", row["ranks"] == "1")
         self.assertIn("none: fewer than 4 sizes", said)
         self.assertIn("Predictions, not measured", said)
+        network = json.loads((self.output / "scaling.json").read_text())["network"]
+        measured = [json.loads(path.read_text())["performance"]["message_latency_s"]
+                    for path in self.output.glob("runs/*2x1*/**/run.json")]
+        self.assertEqual(network["measured"], os.cpu_count() > 1)
+        if network["measured"]:
+            self.assertTrue(min(measured) <= network["latency_s"] <= max(measured), (network, measured))
         record = json.loads((self.output / "scaling.json").read_text())
         self.assertEqual(record["machine"]["cores"], str(os.cpu_count()))
         self.assertRegex(record["machine"]["program"], r"^[\d.]+ \(")

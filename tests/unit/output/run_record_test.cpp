@@ -46,8 +46,8 @@ TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
   EXPECT_EQ(keys_of(json["performance"]),
             (std::vector<std::string>{"processor", "compiler", "ranks", "threads", "wall_s", "solve_s",
                                       "insitu_s", "output_s", "bond_evaluations", "bond_evaluations_per_s",
-                                      "flop", "exchange_s", "exchange_bytes", "peak_rss_bytes", "node_hours",
-                                      "energy_J"}));
+                                      "flop", "exchange_s", "exchange_bytes", "message_latency_s",
+                                      "message_bandwidth_B_s", "peak_rss_bytes", "node_hours", "energy_J"}));
   for (const Json& part : {json["results"], json["results"]["network"], json["performance"]}) {
     for (const auto& item : part.items()) EXPECT_TRUE(item.value().is_null() || item.key() == "network");
   }

@@ -1,0 +1,19 @@
+/// What the network between ranks can do.
+#pragma once
+
+#include <optional>
+
+#include "parallel/communicator.hpp"
+
+namespace rhexis::parallel {
+
+struct Link {
+  double latency_s;      ///< of an empty message
+  double bandwidth_B_s;  ///< of long ones
+};
+
+/// Between the first rank and the last, the best of several messages to and fro; none for one rank. Takes
+/// some milliseconds. Collective; the same on all ranks.
+std::optional<Link> measure_link(const Communicator& comm);
+
+}  // namespace rhexis::parallel
