@@ -63,7 +63,7 @@ struct BlockView {
   Real breaking_t;                   ///< of a uniform wall
   LocalProperties<Real> local = {};  ///< of one that is not, at the block's first row
   const Real* pressure = nullptr;    ///< of a state-based law, padded, at the block's first row
-  BrokenBond* broken = nullptr;      ///< room for what breaks and is evaluated for both ends, row by row
+  BrokenBond* broken = nullptr;      ///< room for those that break and are evaluated for both ends
 };
 
 /// Sums over each row's family.
@@ -268,11 +268,10 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
 
 }  // namespace detail
 
-/// Breaks what is stretched too far, then adds the forces of what is left of `runs`. With `observing` also
-/// their strain energy to either end. Only a `heterogeneous`
-/// wall pays for properties by place, only a `wrapped` one for displacements that are known up to whole
-/// periods, and only a state-based law for the pressures p of its particles, which add p_i + p_j to the
-/// stretch (materials/lps.hpp).
+/// Breaks what is stretched too far, then adds the forces of what is left of `runs`, with `observing` also
+/// their strain energy to either end. Only a `heterogeneous` wall pays for properties by place, only a
+/// `wrapped` one for displacements that are known up to whole periods, and only a state-based law for the
+/// pressures p of its particles, which add p_i + p_j to the stretch (materials/lps.hpp).
 template <bool observing, bool heterogeneous, bool wrapped, class Law, class Real>
 HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span<const BondRun> runs,
                           BlockSums<Real>& sums) {
