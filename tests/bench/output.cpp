@@ -1,5 +1,5 @@
-// What a frame of the paper's vessel costs: its fields evaluated, stored as particles, stored as a
-// checkpoint.
+// What a frame of the paper's vessel costs: its fields evaluated, forces included, which the next step then
+// has; stored as particles; stored as a checkpoint.
 //
 // of_peak: of what is written, bytes/s over those of writing as many bytes to a plain file in the same
 // folder, in place of earlier ones, and waiting until they are on disk; of the fields, flop/s counted as for
@@ -67,9 +67,10 @@ void write_frames(benchmark::State& state, double bytes, const peridynamics::Bod
 void fields(benchmark::State& state, int rows, int threads) {
   omp_set_num_threads(threads);
   const auto body = body_of(rows);
-  const double flop = peridynamics::flop_per_bond * 2 * static_cast<double>(body->bonds());
+  const double flop = peridynamics::flop_per_bond * static_cast<double>(body->bonds());
   const auto peak = [&] { return fma_rate<float>(threads); };
   const Medians found = measure(state, peak, [&] {
+    body->advance(pressure, pressure);
     const double start = now(threads);
     body->observe(pressure);
     return Sample{now(threads) - start, flop};
