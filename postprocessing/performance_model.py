@@ -117,7 +117,7 @@ class Machine:
     latency_s: float
     bandwidth_B_s: float  # of a node, shared by its ranks
     cores_per_node: int
-    measured: bool = False  # latency and bandwidth, by runs; else stated
+    source: str = "as stated"  # of latency and bandwidth
 
 
 def nodes_of(ranks, threads, cores_per_node):

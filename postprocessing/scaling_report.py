@@ -78,7 +78,7 @@ def number(value, form=".3g"):
     return "-" if value is None else format(value, form)
 
 
-def print_report(rows, ahead, fits, machine):
+def print_report(rows, ahead, fits, machines):
     print_table(["study", "size", "ranks x threads", "p", "wall (s)", "range", "solving (s)", "memory (MB)", "speedup",
                  "efficiency", "predicted (s)", "error"],
                 [[row["study"], row["size"] or "-", f"{row['ranks']} x {row['threads']}", f"{row['p']:,} {size_name(row)}",
@@ -86,8 +86,9 @@ def print_report(rows, ahead, fits, machine):
                   f"{row['peak_rss_bytes'] / 1e6:.0f}", number(row.get("speedup")), number(row.get("efficiency"), ".0%"),
                   number(row.get("predicted_wall_s")), number(row.get("prediction_error"), "+.0%")] for row in rows])
     if ahead:
-        print(f"\nPredictions, not measured; with nodes of {machine.cores_per_node} cores, {machine.latency_s:.3g} s a message, "
-              f"{machine.bandwidth_B_s:.3g} bytes/s ({'as measured here' if machine.measured else 'as stated'}):")
+        print(f"\nPredictions, not measured; with nodes of {machines[0].cores_per_node} cores;")
+        for where, machine in zip(("within a node", "between nodes"), machines):
+            print(f"{where} {machine.latency_s:.3g} s a message, {machine.bandwidth_B_s:.3g} bytes/s, {machine.source}")
         print_table(["study", "ranks x threads", "nodes", "predicted (s)", "speedup", "efficiency"],
                     [[row["study"], f"{row['ranks']} x {row['threads']}", str(row["nodes"]), f"{row['predicted_wall_s']:.3g}",
                       number(row["speedup"]), number(row["efficiency"], ".0%")] for row in ahead])
@@ -175,16 +176,16 @@ def draw_study(path, study, rows, ahead, fits):
     plt.close(figure)
 
 
-def write_report(output, plan, model, about, machine, rows, ahead):
+def write_report(output, plan, model, about, machines, rows, ahead):
     fits = fit_resources(rows, model)
-    print_report(rows, ahead, fits, machine)
+    print_report(rows, ahead, fits, machines)
     with open(output / "scaling.csv", "w", newline="", encoding="utf-8") as file:
         table = csv.DictWriter(file, COLUMNS)
         table.writeheader()
         table.writerows(rows + ahead)
     as_json = [{**fit, "law": fit["law"] and dataclasses.asdict(fit["law"])} for fit in fits]
     (output / "scaling.json").write_text(json.dumps(
-        {"machine": about, "network": dataclasses.asdict(machine), "input": plan["input"], "set": plan["set"],
+        {"machine": about, "network": [dataclasses.asdict(machine) for machine in machines], "input": plan["input"], "set": plan["set"],
          "measured": rows, "predicted": ahead, "fits": as_json}, indent=2) + "\n", encoding="utf-8")
     print()
     for study in dict.fromkeys(row["study"] for row in rows):

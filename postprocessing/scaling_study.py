@@ -18,7 +18,9 @@ operations and memory, where there are four sizes or more: p is the cores (stron
 particles of a wall.
 Predictions take their rate per core from the run on the fewest cores alone, and so are tested by all others; those for
 more cores than were measured are listed as predictions (formulas: performance_model.py; for walls, and trees that are not
-stored). The network's latency and bandwidth are those that the runs measured between their first and last rank. Wall-clock time is that of the program, without mpirun's start. Writes scaling.csv, scaling.json, a PNG a study.
+stored). The network's latency and bandwidth are those that runs measured between their first and last rank: within a node,
+and between nodes where runs used several, else as usual. Wall-clock time is that of the program, without mpirun's start.
+Writes scaling.csv, scaling.json, a PNG a study.
 """
 
 import argparse
@@ -98,8 +100,9 @@ def plan_cases(options):
             for number, (study, (ranks, threads), size) in enumerate(cases, 1)]
 
 
-def compare_and_predict(rows, records, machine, beyond):
-    """Adds speedup, efficiency and predicted time to the rows of a study over cores; returns rows for cores beyond."""
+def compare_and_predict(rows, records, machines, beyond):
+    """`machines`: with the network within a node, and between nodes. Adds speedup, efficiency and predicted time to the rows of a study over cores; returns rows for cores beyond."""
+    machine = machines[0]
     first = min(rows, key=lambda row: row["cores"])
     real = [row for row in rows if row["cores"] <= row["nodes"] * machine.cores_per_node]
     problem = problem_of(records[rows.index(first)])
@@ -108,7 +111,8 @@ def compare_and_predict(rows, records, machine, beyond):
     strong = first["study"] == "strong"
 
     def predicted(of, ranks, threads, steps):
-        seconds = solve_seconds(of, ranks, threads, steps, rate, machine)
+        network = machines[nodes_of(ranks, threads, machine.cores_per_node) > 1]
+        seconds = solve_seconds(of, ranks, threads, steps, rate, network)
         return None if seconds is None else rest + seconds
 
     for row, record in zip(rows, records):
@@ -141,18 +145,18 @@ def compare_and_predict(rows, records, machine, beyond):
     return ahead
 
 
-def machine_of(found, options, cores_per_node):
-    """The network as stated, or else as the runs with most nodes, then most ranks, measured it; as is usual where none
-    did. Ranks that share cores measure how they take turns."""
-    costs = [(row["nodes"], row["ranks"], record["performance"]) for row, record in found
-             if row["cores"] <= row["nodes"] * cores_per_node and record["performance"].get("message_latency_s")]
-    most = max((cost[:2] for cost in costs), default=None)
-    best = [cost for *size, cost in costs if tuple(size) == most]
-    def value(stated, key, usual):
-        return stated or (statistics.median(cost[key] for cost in best) if best else usual)
-
-    return Machine(value(options.latency, "message_latency_s", 2e-6), value(options.bandwidth, "message_bandwidth_B_s", 12.5e9),
-                   cores_per_node, bool(best) and not (options.latency or options.bandwidth))
+def machine_of(found, options, cores_per_node, nodes):
+    """The network of so many nodes: as stated; else as the runs on most ranks of one node, or of several, measured it; else
+    as is usual. Ranks that share cores measure how they take turns, which is no network."""
+    costs = [(row["ranks"], record["performance"]) for row, record in found
+             if (row["nodes"] > 1) == (nodes > 1) and row["cores"] <= row["nodes"] * cores_per_node
+             and record["performance"]["message_latency_s"]]
+    best = [cost for ranks, cost in costs if ranks == max(ranks for ranks, _ in costs)]
+    values, sources = [], set()
+    for stated, key, usual in ((options.latency, "message_latency_s", 2e-6), (options.bandwidth, "message_bandwidth_B_s", 12.5e9)):
+        values.append(stated or (statistics.median(cost[key] for cost in best) if best else usual))
+        sources.add("as stated" if stated else "as measured" if best else "as usual, not measured")
+    return Machine(*values, cores_per_node, " and ".join(sorted(sources)))
 
 
 def collect(plan, output, options, cores_per_node, beyond):
@@ -161,7 +165,8 @@ def collect(plan, output, options, cores_per_node, beyond):
     cases = [(case, *measured(plan, output, case)) for case in plan["cases"]]
     for case in (case for case, row, _ in cases if row is None):
         print(f"warning: no finished run in {output / 'runs' / case['folder']}", file=sys.stderr)
-    machine = machine_of([(row, record) for _, row, record in cases if row], options, cores_per_node)
+    complete = [(row, record) for _, row, record in cases if row]
+    machines = [machine_of(complete, options, cores_per_node, nodes) for nodes in (1, 2)]
     for study in ("strong", "weak", "sizes"):
         found = [(row, record) for case, row, record in cases if row and case["study"] == study]
         if not found:
@@ -169,11 +174,11 @@ def collect(plan, output, options, cores_per_node, beyond):
         of_study, records = map(list, zip(*found))
         model = model or records[0]["input"]["scene"]["model"]["value"]
         if study != "sizes":
-            ahead += compare_and_predict(of_study, records, machine, beyond)
+            ahead += compare_and_predict(of_study, records, machines, beyond)
         rows += of_study
     if not rows:
         sys.exit(f"error: no finished run in {output}")
-    write_report(output, plan, model, read_machine(output / "machine.txt"), machine, rows, ahead)
+    write_report(output, plan, model, read_machine(output / "machine.txt"), machines, rows, ahead)
 
 
 def parse_arguments():
@@ -195,7 +200,7 @@ def parse_arguments():
     parser.add_argument("--collect", type=pathlib.Path, metavar="DIR", help="report on the finished jobs of DIR")
     parser.add_argument("--predict", type=positive(int), nargs="*", default=[2**k for k in range(1, 11)], metavar="CORES",
                         help="predict times on so many cores, default 2 to 1024")
-    parser.add_argument("--latency", type=positive(float), help="of a message between nodes, s; default: as measured, or 2e-6")
+    parser.add_argument("--latency", type=positive(float), help="of a message between nodes, s; default: as measured between them, or 2e-6")
     parser.add_argument("--bandwidth", type=positive(float), help="of a node, bytes/s; default: as measured, or 12.5e9")
     parser.add_argument("--cores-per-node", type=positive(int), help="default: this machine's")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/scaling")

@@ -50,6 +50,7 @@ Ending VesselRun::run() {
     say_header();
     if (c_.vessel.equilibrium_pressure > 0 && options_.restart.empty()) start_at_equilibrium();
     time_loop();
+    if (series_) series_->finish();
     if (coupling_ != nullptr) coupling_->end(time_at(step_));
     finish_insitu();
     make_movie();

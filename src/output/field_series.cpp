@@ -143,7 +143,7 @@ void FieldSeries::write(long step, const std::function<FieldView(const StoredFie
                         const std::function<std::string(const std::string& place)>& grid_of) {
   const auto planned = planned_places_.find(step);
   const std::string place = planned == planned_places_.end() ? unplanned_place : planned->second;
-  settle();
+  finish();
   if (std::erase_if(listed_, [&](const ListedStep& other) { return other.place == place; }) > 0) write_xdmf();
 
   std::vector<std::string> datasets;
@@ -155,24 +155,28 @@ void FieldSeries::write(long step, const std::function<FieldView(const StoredFie
   }
   listed_.push_back({place, grid_of(place)});
   // Waiting for the disk takes no processor, so the run goes on meanwhile.
-  saving_ = std::async(std::launch::async, [file = file_->path(), list = xdmf_path_,
-                                            text = communicator_.is_root() ? xdmf() : ""] {
-    sync_to_disk(file);
-    if (!text.empty()) write_atomically(list, text);
+  parallel::together<RunError>(communicator_, [&] {
+    saving_ = std::async(std::launch::async, [file = file_->path(), list = xdmf_path_,
+                                              text = communicator_.is_root() ? xdmf() : ""] {
+      sync_to_disk(file);
+      if (!text.empty()) write_atomically(list, text);
+    });
   });
   const bool more_to_come = planned != planned_places_.end() && std::next(planned) != planned_places_.end();
-  if (!more_to_come) settle();
+  if (!more_to_come) finish();
 }
 
-/// Until the step that was written last is on the disk; one that cannot get there is not listed.
-void FieldSeries::settle() {
+void FieldSeries::finish() {
   try {
     parallel::together<RunError>(communicator_, [&] {
       if (saving_.valid()) saving_.get();
     });
   } catch (const RunError&) {
     listed_.pop_back();
-    write_xdmf();
+    try {
+      write_xdmf();
+    } catch (const RunError&) {  // the first reason says more
+    }
     throw;
   }
 }

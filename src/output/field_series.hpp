@@ -3,8 +3,8 @@
 ///
 /// All of an HDF5 file is laid out when it is made, and its structure reaches the disk then: a step adds
 /// values and nothing else, so whenever and however the program dies, all earlier steps can be read. A step
-/// that was never written takes no disk space. The XDMF file lists a step once it is on the disk, and is
-/// replaced in one step.
+/// that was never written takes no disk space. The XDMF file lists a step once the first rank has it
+/// on the disk, and is replaced in one step.
 #pragma once
 
 #include <cstdint>
@@ -78,6 +78,10 @@ class FieldSeries {
   void write(long step, const std::function<FieldView(const StoredField&)>& view_of,
              const std::function<std::string(const std::string& place)>& grid_of);
 
+  /// Waits until the step that was written last is on the disk; one that cannot get there is listed no
+  /// longer.
+  void finish();
+
   const std::vector<StoredField>& fields() const { return fields_; }
 
   /// XDMF text: a reference to a data set of reals, integers; attributes of all fields but `without`; numbers
@@ -99,7 +103,6 @@ class FieldSeries {
   void reserve(const std::vector<std::string>& datasets);
   std::string xdmf() const;
   void write_xdmf() const;
-  void settle();
 
   SeriesLayout layout_;
   std::vector<StoredField> fields_;

@@ -31,6 +31,8 @@ class PointSeries {
   /// Stores the fields of this moment and lists it, with its annotations, in the XDMF file. A step that was
   /// not planned goes to the one spare place, from which it displaces an earlier unplanned step.
   void write(PointSource& source);
+  /// See FieldSeries.
+  void finish() { series_.finish(); }
 
  private:
   std::string xdmf_grid(const PointSource& source, const std::string& place) const;

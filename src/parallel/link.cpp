@@ -35,8 +35,8 @@ std::optional<Link> measure_link(const Communicator& comm) {
   double seconds[2] = {one_way(comm, 0, 50), one_way(comm, long_message, 5)};
   if (!comm.is_root()) seconds[0] = seconds[1] = 0;
   comm.all_reduce(seconds, Reduce::max);
-  const double rest = std::max(seconds[1] - seconds[0], std::numeric_limits<double>::min());
-  return Link{seconds[0], long_message / rest};
+  const double rest = seconds[1] - seconds[0];
+  return Link{seconds[0], long_message / (rest > 0 ? rest : seconds[1])};
 }
 
 }  // namespace rhexis::parallel

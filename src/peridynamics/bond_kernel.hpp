@@ -45,6 +45,7 @@ struct BondConstants {
 struct BondRun {
   std::int32_t first, past;
   bool both;
+  int ends;  ///< of each bond that count here: both of those to later columns, whoever evaluates them
 };
 
 /// A bond of a family that broke in some rows.
@@ -73,7 +74,7 @@ struct BlockSums {
   alignas(64) Real energy[parallel::block_rows] = {};    ///< when observing, added to
   int broken = 0;                                        ///< directed bonds of these rows that broke now
   std::size_t broken_for_both = 0;                       ///< how many are in BlockView::broken
-  int crushed = 0;  ///< those shorter than half their length, twice if `both`; counted when observing
+  int crushed = 0;  ///< ends of bonds shorter than half their length, as BondRun::ends; when observing
 };
 
 /// Floating-point operations of one bond that pulls, for both of its ends: 6 for eta and y, 11 for t, 13 for
@@ -260,7 +261,7 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
       f.energy = hn::Add(f.energy, w);
       if constexpr (both) hn::StoreU(hn::Add(w, hn::LoadU(d, others[3] + there)), d, others[3] + there);
       const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
-      sums.crushed += static_cast<int>(hn::CountTrue(d, crushed)) * (both ? 2 : 1);
+      sums.crushed += static_cast<int>(hn::CountTrue(d, crushed)) * run.ends;
     }
   } while (next_word != past);
   sum = f;

@@ -107,7 +107,9 @@ void ColumnBody<Law, Real>::find_forces() {
       sum_part<true>(parts_[p], per_thread[static_cast<std::size_t>(thread)], [](std::int32_t) {});
   });
   crushed_ = 0;
-  for (const ThreadEvents& t : per_thread) {
+  for (ThreadEvents& t : per_thread) {
+    look_for_rupture(t);
+    damaged_ = damaged_ || t.damaged;
     crushed_ += t.crushed;
     intact_directed_ -= t.broken;
     pending_broken_ += t.broken;

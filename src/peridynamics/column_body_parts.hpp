@@ -78,16 +78,18 @@ void ColumnBody<Law, Real>::add_runs(Part<Real>& part, std::int32_t slot) const 
   const auto bonds = static_cast<std::int32_t>(family.size());
   std::int32_t b = 0;
   while (b < bonds && family[static_cast<std::size_t>(b)].other < first) ++b;
-  part.runs.push_back({0, b, false});
+  part.runs.push_back({0, b, false, 0});
   const std::size_t start = part.runs.size();
   for (; b < bonds; ++b) {
     const std::int32_t other = family[static_cast<std::size_t>(b)].other;
     if (other < own && other >= first) continue;
     const bool both = other > own && other < past;
-    if (part.runs.size() > start && part.runs.back().both == both && part.runs.back().past == b) {
+    const int ends = other > own ? 2 : other == own ? 1 : 0;
+    const BondRun& last = part.runs.back();
+    if (part.runs.size() > start && last.both == both && last.ends == ends && last.past == b) {
       ++part.runs.back().past;
     } else {
-      part.runs.push_back({b, b + 1, both});
+      part.runs.push_back({b, b + 1, both, ends});
     }
   }
 }

@@ -98,6 +98,7 @@ void particles(benchmark::State& state, int rows, int samples, const std::filesy
   write_frames(state, bytes, *body, folder.path, [&] {
     source.moment(step, static_cast<double>(step), observation, {{"pressure", "Pa", pressure}});
     series.write(source);
+    series.finish();
     ++step;
   });
 }
