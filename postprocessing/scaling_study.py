@@ -101,7 +101,8 @@ def plan_cases(options):
 
 
 def compare_and_predict(rows, records, machines, beyond):
-    """`machines`: with the network within a node, and between nodes. Adds speedup, efficiency and predicted time to the rows of a study over cores; returns rows for cores beyond."""
+    """Adds speedup, efficiency and predicted time to the rows of a study over cores; returns rows for cores beyond.
+    `machines`: with the network within a node, and between nodes."""
     machine = machines[0]
     first = min(rows, key=lambda row: row["cores"])
     real = [row for row in rows if row["cores"] <= row["nodes"] * machine.cores_per_node]

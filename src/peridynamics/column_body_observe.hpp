@@ -99,7 +99,6 @@ void ColumnBody<Law, Real>::observe_unit(const Part<Real>& part, Unit unit, doub
 template <class Law, class Real>
 void ColumnBody<Law, Real>::find_forces() {
   if (std::exchange(forces_known_, true)) return;
-  if (steps_ % frame_interval == 0) follow_body();  // as the step would that takes over these forces
   std::vector<ThreadEvents> per_thread(static_cast<std::size_t>(threads_), ThreadEvents(setup_.energy_scale));
   prepare_forces(per_thread);
   parallel::for_each_share(threads_, parts_.size(), [&](int thread, std::size_t begin, std::size_t end) {

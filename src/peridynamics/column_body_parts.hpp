@@ -84,7 +84,7 @@ void ColumnBody<Law, Real>::add_runs(Part<Real>& part, std::int32_t slot) const 
     const std::int32_t other = family[static_cast<std::size_t>(b)].other;
     if (other < own && other >= first) continue;
     const bool both = other > own && other < past;
-    const int ends = other > own ? 2 : other == own ? 1 : 0;
+    const int ends = other > own ? 2 : 1;
     const BondRun& last = part.runs.back();
     if (part.runs.size() > start && last.both == both && last.ends == ends && last.past == b) {
       ++part.runs.back().past;

@@ -117,9 +117,10 @@ void ColumnBody<Law, Real>::look_for_rupture(ThreadEvents& events) const {
   events.broken_units.clear();
 }
 
-/// Has what forces need of other particles: a state-based law's dilatations, then the halo.
+/// What forces need: a frame that followed the body, a state-based law's dilatations, the halo.
 template <class Law, class Real>
 void ColumnBody<Law, Real>::prepare_forces(std::vector<ThreadEvents>& per_thread) {
+  if (steps_ % frame_interval == 0) follow_body();
   if constexpr (Law::state_based) {
     find_dilatations(per_thread);
     Real* const pressure = state_->pressure.data();
@@ -201,7 +202,6 @@ void ColumnBody<Law, Real>::move_column(const Part<Real>& part, std::int32_t slo
 
 template <class Law, class Real>
 StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure) {
-  if (steps_ % frame_interval == 0) follow_body();
   const double kick = first_kick_pending_ ? 0.5 * setup_.time_step : setup_.time_step;
   load_speed_ += setup_.time_step * std::abs(pressure) * largest_load_ / setup_.density;
   const Push push{.pressure = pressure,
