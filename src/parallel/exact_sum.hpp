@@ -15,12 +15,16 @@ namespace rhexis::parallel {
 /// infinite.
 class ExactSum {
  public:
-  explicit ExactSum(double scale) : quantum_(std::ldexp(1.0, std::ilogb(scale) + 1 - 80)) {}
+  explicit ExactSum(double scale)
+      : quantum_(std::ldexp(1.0, std::ilogb(scale) + 1 - 80)), per_quantum_(1 / quantum_) {}
 
   void add(double term) {
-    const double units = term / quantum_;
+    const double units = term * per_quantum_;
     if (std::abs(units) < 0x1p100) {
-      total_ += static_cast<Integer>(units);
+      // In two parts: compilers call a function to make 128 bits of a double.
+      const double high = std::trunc(units * 0x1p-63);
+      total_ += static_cast<Integer>(static_cast<std::int64_t>(high)) * (Integer{1} << 63) +
+                static_cast<std::int64_t>(units - high * 0x1p63);
     } else {
       overflow_ = true;
     }
@@ -69,7 +73,7 @@ class ExactSum {
     return sum;
   }
 
-  double quantum_;
+  double quantum_, per_quantum_;  // powers of two
   Integer total_ = 0;
   bool overflow_ = false;
 };

@@ -54,26 +54,23 @@ struct BrokenBond {
   std::uint16_t rows;
 };
 
-/// One block of one column: what the bonds read and the bits they may clear.
+/// One block of one column: what the bonds read, the bits they may clear, and the sums they add to.
 template <class Real>
 struct BlockView {
   const Real* u[3];  ///< padded displacement, at the block's first row
   std::span<const BondConstants<Real>> bonds;
   std::uint16_t* intact;             ///< one word per bond, bit k: bond of row k exists and is unbroken
-  std::array<Real*, 4> others = {};  ///< sums of the other ends' force and energy, padded, at the first row
+  std::array<Real*, 4> sums = {};    ///< of force and, when observing, energy, padded, at the first row
   Real breaking_t;                   ///< of a uniform wall
   LocalProperties<Real> local = {};  ///< of one that is not, at the block's first row
   const Real* pressure = nullptr;    ///< of a state-based law, padded, at the block's first row
   BrokenBond* broken = nullptr;      ///< room for those that break and are evaluated for both ends
 };
 
-/// Sums over each row's family.
-template <class Real>
-struct BlockSums {
-  alignas(64) Real force[3][parallel::block_rows] = {};  ///< added to
-  alignas(64) Real energy[parallel::block_rows] = {};    ///< when observing, added to
-  int broken = 0;                                        ///< directed bonds of these rows that broke now
-  std::size_t broken_for_both = 0;                       ///< how many are in BlockView::broken
+/// What happened in a block.
+struct BlockEvents {
+  int broken = 0;                   ///< directed bonds of these rows that broke now
+  std::size_t broken_for_both = 0;  ///< how many are in BlockView::broken
   int crushed = 0;  ///< ends of bonds shorter than half their length, as BondRun::ends; when observing
 };
 
@@ -197,7 +194,7 @@ struct Sums {
 /// Adds the bonds of a run, those `both` to the sums of their other ends too.
 template <bool both, bool observing, bool heterogeneous, bool wrapped, class D, class Law, class Real>
 HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::size_t lane, const BondRun run,
-                        Sums<D>& sum, BlockSums<Real>& sums) {
+                        Sums<D>& sum, BlockEvents& events) {
   using V = hn::Vec<D>;
   const Ends<wrapped, D, Real> ends(d, block, lane);
   const BreakingTest<heterogeneous, D, Real> test(d, block, lane);
@@ -206,7 +203,7 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
   if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
   Sums<D> f = sum;
   std::array<Real*, 4> others = {};
-  for (std::size_t k = 0; both && k < (observing ? 4 : 3); ++k) others[k] = block.others[k] + lane;
+  for (std::size_t k = 0; both && k < (observing ? 4 : 3); ++k) others[k] = block.sums[k] + lane;
   const std::uint16_t* const past = block.intact + run.past;
   std::uint16_t* next_word = block.intact + run.first;
   const BondConstants<Real>* next_bond = block.bonds.data() + run.first;
@@ -226,10 +223,10 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
     if (next_word != past) next = ends.deformed(d, *next_bond);
     const std::uint16_t broken = clear(d, test.fails(d, law, bond, t), lane, word);
     if (HWY_UNLIKELY(broken != 0)) {
-      sums.broken += std::popcount(broken);
+      events.broken += std::popcount(broken);
       if constexpr (both) {
         const auto number = static_cast<std::int32_t>(&word - block.intact);
-        block.broken[sums.broken_for_both++] = {number, broken};
+        block.broken[events.broken_for_both++] = {number, broken};
       }
     }
     const auto pulling = lanes_of(d, word, lane);
@@ -261,7 +258,7 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
       f.energy = hn::Add(f.energy, w);
       if constexpr (both) hn::StoreU(hn::Add(w, hn::LoadU(d, others[3] + there)), d, others[3] + there);
       const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
-      sums.crushed += static_cast<int>(hn::CountTrue(d, crushed)) * run.ends;
+      events.crushed += static_cast<int>(hn::CountTrue(d, crushed)) * run.ends;
     }
   } while (next_word != past);
   sum = f;
@@ -275,24 +272,26 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
 /// pressures p of its particles, which add p_i + p_j to the stretch (materials/lps.hpp).
 template <bool observing, bool heterogeneous, bool wrapped, class Law, class Real>
 HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span<const BondRun> runs,
-                          BlockSums<Real>& sums) {
+                          BlockEvents& events) {
   namespace hn = hwy::HWY_NAMESPACE;
   using D = hn::CappedTag<Real, parallel::block_rows>;
   const D d;
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
-    detail::Sums<D> sum{hn::Load(d, sums.force[0] + lane), hn::Load(d, sums.force[1] + lane),
-                        hn::Load(d, sums.force[2] + lane), hn::Load(d, sums.energy + lane)};
+    const auto sum_at = [&](std::size_t k) { return block.sums[k] + lane; };
+    detail::Sums<D> sum{hn::LoadU(d, sum_at(0)), hn::LoadU(d, sum_at(1)), hn::LoadU(d, sum_at(2)),
+                        hn::Zero(d)};
+    if constexpr (observing) sum.energy = hn::LoadU(d, sum_at(3));
     for (const BondRun run : runs) {
       if (run.both) {
-        detail::add_run<true, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums);
+        detail::add_run<true, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, events);
       } else {
-        detail::add_run<false, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, sums);
+        detail::add_run<false, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, events);
       }
     }
-    hn::Store(sum.x, d, sums.force[0] + lane);
-    hn::Store(sum.y, d, sums.force[1] + lane);
-    hn::Store(sum.z, d, sums.force[2] + lane);
-    if constexpr (observing) hn::Store(sum.energy, d, sums.energy + lane);
+    hn::StoreU(sum.x, d, sum_at(0));
+    hn::StoreU(sum.y, d, sum_at(1));
+    hn::StoreU(sum.z, d, sum_at(2));
+    if constexpr (observing) hn::StoreU(sum.energy, d, sum_at(3));
   }
 }
 

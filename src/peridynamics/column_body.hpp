@@ -288,7 +288,7 @@ class ColumnBody final : public Body {
   template <class Use>
   void choose_kernel(const Use& use) const;
   template <bool observing>
-  void sum(const BlockView<Real>& block, std::span<const BondRun> runs, BlockSums<Real>& sums) const;
+  BlockEvents sum(const BlockView<Real>& block, std::span<const BondRun> runs) const;
   template <class Use>
   void each_opposite(const Part<Real>& part, std::int32_t slot, std::int64_t row, std::int32_t b,
                      const Use& use);

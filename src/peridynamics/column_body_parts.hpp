@@ -145,11 +145,11 @@ void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot,
     }
   }
   if (any == 0) return;
-  BlockSums<Real> of_the_rows;  // which are another part's
   for (const BondRun& run : runs) {
-    if (run.both) sum<observing>(view(part, slot, row, part.words.data()), {&run, 1}, of_the_rows);
+    if (!run.both) continue;
+    const BlockEvents found = sum<observing>(view(part, slot, row, part.words.data()), {&run, 1});
+    break_other_ends(part, slot, row, found.broken_for_both, events);
   }
-  break_other_ends(part, slot, row, of_the_rows.broken_for_both, events);
 }
 
 /// Sums the forces of a part's particles, and their energies when observing, in `part.sums`; calls
@@ -164,22 +164,17 @@ void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, con
   const auto add_block = [&](Unit unit, std::span<const BondRun> runs) {
     const BlockView<Real> here =
         view(part, unit.slot, unit.block * block_rows, intact_.data() + first_word(unit));
-    BlockSums<Real> sums;
-    for (std::size_t k = 0; k < 3; ++k) std::copy_n(here.others[k], block_rows, sums.force[k]);
-    if constexpr (observing) std::copy_n(here.others[3], block_rows, sums.energy);
-    sum<observing>(here, runs, sums);
-    for (std::size_t k = 0; k < 3; ++k) std::copy_n(sums.force[k], block_rows, here.others[k]);
-    if constexpr (observing) std::copy_n(sums.energy, block_rows, here.others[3]);
-    note_broken(unit, sums.broken, events);
-    break_other_ends(part, unit.slot, unit.block * block_rows, sums.broken_for_both, events);
-    events.crushed += sums.crushed;
+    const BlockEvents found = sum<observing>(here, runs);
+    note_broken(unit, found.broken, events);
+    break_other_ends(part, unit.slot, unit.block * block_rows, found.broken_for_both, events);
+    events.crushed += found.crushed;
   };
   for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
     const BondRun& before = part.runs[part.first_run[slot - part.first_slot]];
-    // Bonds that leave the part add to rows beyond it, which nobody reads.
+    // Of rows beyond the part, to which bonds across its ends add, nobody reads the sums.
     const BlockView<Real> below_part = view(part, slot, part.first_row - block_rows, nullptr);
     for (std::size_t k = 0; k < (observing ? 4 : 3); ++k)
-      std::fill_n(below_part.others[k], (past_block - first_block + 2) * block_rows, Real{0});
+      std::fill_n(below_part.sums[k], (past_block - first_block + 2) * block_rows, Real{0});
     for (std::int32_t block = first_block; before.past > 0 && block < past_block; ++block)
       add_block({slot, block}, {&before, 1});
   }

@@ -24,7 +24,7 @@ BlockView<Real> ColumnBody<Law, Real>::view(Part<Real>& part, std::int32_t slot,
   BlockView<Real> block = view(slot, row, words);
   const std::size_t place =
       domain_.padded(static_cast<std::size_t>(slot - part.first_slot)) + static_cast<std::size_t>(row);
-  for (std::size_t k = 0; k < 4; ++k) block.others[k] = part.sums[k].get() + place;
+  for (std::size_t k = 0; k < 4; ++k) block.sums[k] = part.sums[k].get() + place;
   block.broken = part.broken.data();
   return block;
 }
@@ -43,11 +43,12 @@ void ColumnBody<Law, Real>::choose_kernel(const Use& use) const {
 
 template <class Law, class Real>
 template <bool observing>
-void ColumnBody<Law, Real>::sum(const BlockView<Real>& block, std::span<const BondRun> runs,
-                                BlockSums<Real>& sums) const {
+BlockEvents ColumnBody<Law, Real>::sum(const BlockView<Real>& block, std::span<const BondRun> runs) const {
+  BlockEvents events;
   choose_kernel([&]<bool heterogeneous, bool wrapped>() {
-    sum_block<observing, heterogeneous, wrapped>(law_, block, runs, sums);
+    sum_block<observing, heterogeneous, wrapped>(law_, block, runs, events);
   });
+  return events;
 }
 
 /// Of owned rows [begin, past): those whose motion along axis `component` the ends do not hold.
@@ -134,6 +135,15 @@ void ColumnBody<Law, Real>::prepare_forces(std::vector<ThreadEvents>& per_thread
   }
 }
 
+/// In an order that compilers find vectors in.
+inline double sum_of_rows(const double (&row)[block_rows]) {
+  static_assert(block_rows == 16);
+  double eight[8], four[4];
+  for (int i = 0; i < 8; ++i) eight[i] = row[i] + row[i + 8];
+  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
+  return (four[0] + four[2]) + (four[1] + four[3]);
+}
+
 /// Adds the load to the velocity of a part's rows of a column, and its work over the step to `work`. Block by
 /// block, for a sum over rows depends on where it begins.
 template <class Law, class Real>
@@ -141,27 +151,23 @@ void ColumnBody<Law, Real>::push_column(const Part<Real>& part, std::int32_t slo
                                         ExactSum& work) {
   const std::size_t column = global_column(slot);
   const double loads[2] = {setup_.layer.bx[column], setup_.layer.by[column]};
+  const double kick[2] = {push.kick * (push.pressure * loads[0] / setup_.density),
+                          push.kick * (push.pressure * loads[1] / setup_.density)};
   const double path_work = push.work_pressure * setup_.time_step * setup_.lattice.volume(column);
   for (std::int32_t block = part.first_block(); block < part.past_block(); ++block) {
     const Unit unit{slot, block};
     double space[block_rows];
-    const double* share = load_shares(unit, space);
-    double work_of_block = 0;
+    const double* __restrict share = load_shares(unit, space);
+    double power[block_rows] = {};  // of the load of each row, per volume
     for (int k = 0; k < 2; ++k) {
       const auto [first, past] = free_rows(unit, k);
-      const double velocity = push.kick * (push.pressure * loads[k] / setup_.density);
-      double* v = v_[k].data() + particle(unit);
-      double path[block_rows] = {};
+      double* __restrict v = v_[k].data() + particle(unit);
       for (int lane = first; lane < past; ++lane) {
-        v[lane] += velocity * share[lane];
-        path[lane] = share[lane] * v[lane];
+        v[lane] += kick[k] * share[lane];
+        power[lane] += loads[k] * (share[lane] * v[lane]);
       }
-      for (int half = block_rows / 2; half > 0; half /= 2) {
-        for (int lane = 0; lane < half; ++lane) path[lane] += path[half + lane];
-      }
-      work_of_block += loads[k] * path[0];
     }
-    work.add(path_work * work_of_block);
+    work.add(path_work * sum_of_rows(power));
   }
 }
 
