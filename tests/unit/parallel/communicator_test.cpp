@@ -41,6 +41,20 @@ TEST(ExactSum, DoesNotDependOnOrderOrRanks) {
   EXPECT_NEAR(all.value(), plain, 1e-10);
 }
 
+TEST(ExactSum, TermsAreWholeDownToTheQuantum) {
+  for (const double sign : {1.0, -1.0}) {
+    for (int exponent = -27; exponent < 20; ++exponent) {  // the last bit of the smallest is 2^-79
+      ExactSum sum(1.0);
+      const double term = sign * std::ldexp(0x1.23456789abcdfp0, exponent);
+      sum.add(term);
+      EXPECT_EQ(sum.value(), term);
+    }
+    ExactSum cut(1.0);
+    cut.add(sign * 0x1.8p-79);
+    EXPECT_EQ(cut.value(), sign * 0x1p-79);
+  }
+}
+
 TEST(ExactSum, GoesOnFromItsPartsWithoutLoss) {
   const auto world = Communicator::world();
   for (const double sign : {1.0, -1.0}) {
