@@ -142,7 +142,8 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   if (with_output) {
     const Stopwatch watch(spent_.output);
     const peridynamics::Totals t = body_->totals();
-    open_area_ = t.broken_bonds > 0 ? gauge_->area() : 0;
+    // Beside a hole particles have lost about half of their bonds.
+    open_area_ = t.max_damage >= peridynamics::rupture_damage ? gauge_->area() : 0;
     const double leak = coupling_ != nullptr && coupling_->two_way()
                             ? coupling_->leak()
                             : peridynamics::orifice_flow(c_.vessel.discharge_coefficient, open_area_,
@@ -223,7 +224,7 @@ void VesselRun::take_notice(long step, std::uint64_t flags) {
 
 /// Settles what share of the pressure is left at the next step.
 void VesselRun::vent(long step) {
-  if (c_.vessel.venting == "none" || !results_.first_bond_break_s || step % venting_interval != 0) return;
+  if (c_.vessel.venting == "none" || !results_.rupture_onset_s || step % venting_interval != 0) return;
   open_area_ = gauge_->area();
   vent_next_ = peridynamics::venting_factor(open_area_, *c_.vessel.supply_area);
   least_vent_ = std::min(least_vent_, vent_next_);
@@ -240,7 +241,7 @@ void VesselRun::take_load() {
 /// fragments are no wall.
 void VesselRun::exchange(long step) {
   if (!results_.rupture_onset_s) resistance_factor_ = lumen_->resistance_factor();
-  if (results_.first_bond_break_s) open_area_ = gauge_->area();
+  if (results_.rupture_onset_s) open_area_ = gauge_->area();
   coupling_->exchange({.time_s = time_at(step),
                        .schedule = peridynamics::schedule_share(c_.vessel, time_at(step)),
                        .opening = open_area_,

@@ -94,6 +94,11 @@ void ColumnBody<Law, Real>::add_runs(Part<Real>& part, std::int32_t slot) const 
   }
 }
 
+/// Bits moved up, or down where `up` is negative.
+inline unsigned shifted(unsigned bits, int up) {
+  return up >= 0 ? bits << up : bits >> -up;
+}
+
 /// Calls `use(word, unit, shift)` for the words, one or two in the part, of the other ends of bond `b` of
 /// rows [row, row + 16) of a column: bit 0 of those rows is bit `shift` of the word, which may be negative.
 template <class Law, class Real>
@@ -120,8 +125,7 @@ void ColumnBody<Law, Real>::break_other_ends(Part<Real>& part, std::int32_t slot
   for (std::size_t i = 0; i < count; ++i) {
     const BrokenBond broken = part.broken[i];
     each_opposite(part, slot, row, broken.bond, [&](std::uint16_t& word, Unit unit, int shift) {
-      const unsigned rows = shift >= 0 ? unsigned{broken.rows} << shift : unsigned{broken.rows} >> -shift;
-      const auto ending = static_cast<std::uint16_t>(word & rows);
+      const auto ending = static_cast<std::uint16_t>(word & shifted(broken.rows, shift));
       word = static_cast<std::uint16_t>(word & ~ending);
       note_broken(unit, std::popcount(ending), events);
     });
@@ -137,9 +141,8 @@ void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot,
   for (const BondRun& run : runs) {
     for (std::int32_t b = run.first; run.both && b < run.past; ++b) {
       unsigned rows = 0;
-      each_opposite(part, slot, row, b, [&](std::uint16_t word, Unit, int shift) {
-        rows |= shift >= 0 ? unsigned{word} >> shift : unsigned{word} << -shift;
-      });
+      each_opposite(part, slot, row, b,
+                    [&](std::uint16_t word, Unit, int shift) { rows |= shifted(word, -shift); });
       part.words[static_cast<std::size_t>(b)] = static_cast<std::uint16_t>(rows);
       any = static_cast<std::uint16_t>(any | rows);
     }

@@ -1,6 +1,7 @@
 #include "peridynamics/opening.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -51,19 +52,16 @@ double turn(double x, double y) {
 /// Lengths of the runs of clear bits, in bins; the bins close to a circle.
 std::vector<std::size_t> empty_runs(std::span<const std::uint64_t> row) {
   const std::size_t bins = 64 * row.size();
-  const auto occupied = [&](std::size_t bin) { return (row[bin / 64] >> (bin % 64) & 1) != 0; };
-  std::size_t start = 0;
-  while (start < bins && !occupied(start)) ++start;
+  std::vector<std::size_t> occupied;
+  for (std::size_t word = 0; word < row.size(); ++word) {
+    for (std::uint64_t bits = row[word]; bits != 0; bits &= bits - 1)
+      occupied.push_back(64 * word + static_cast<std::size_t>(std::countr_zero(bits)));
+  }
+  if (occupied.empty()) return {bins};
+  occupied.push_back(occupied.front() + bins);
   std::vector<std::size_t> runs;
-  if (start == bins) return {bins};
-  std::size_t run = 0;
-  for (std::size_t i = 1; i <= bins; ++i) {
-    if (!occupied((start + i) % bins)) {
-      ++run;
-    } else if (run > 0) {
-      runs.push_back(run);
-      run = 0;
-    }
+  for (std::size_t i = 1; i < occupied.size(); ++i) {
+    if (const std::size_t run = occupied[i] - occupied[i - 1] - 1; run > 0) runs.push_back(run);
   }
   return runs;
 }
