@@ -132,24 +132,27 @@ void ColumnBody<Law, Real>::break_other_ends(Part<Real>& part, std::int32_t slot
   }
 }
 
-/// Bonds from 16 rows beyond the part, from `row` on, into it.
+/// Bonds from 16 rows beyond the part, from `row` on, into it: of each run those that lead up, or down. They
+/// stand together, for bonds to later columns are sorted by how far they lead (BondFamilies).
 template <class Law, class Real>
 template <bool observing>
 void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot, std::int64_t row,
                                             std::span<const BondRun> runs, ThreadEvents& events) {
-  std::uint16_t any = 0;
-  for (const BondRun& run : runs) {
-    for (std::int32_t b = run.first; run.both && b < run.past; ++b) {
+  const bool up = row < part.first_row;
+  const auto leads_in = [&](std::int32_t b) {
+    const int offset = reference_bond({slot, 0}, static_cast<std::size_t>(b)).row_offset;
+    return up ? offset > 0 : offset < 0;
+  };
+  for (BondRun run : runs) {
+    if (!run.both) continue;
+    while (run.first < run.past && !leads_in(run.first)) ++run.first;
+    while (run.first < run.past && !leads_in(run.past - 1)) --run.past;
+    for (std::int32_t b = run.first; b < run.past; ++b) {
       unsigned rows = 0;
       each_opposite(part, slot, row, b,
                     [&](std::uint16_t word, Unit, int shift) { rows |= shifted(word, -shift); });
       part.words[static_cast<std::size_t>(b)] = static_cast<std::uint16_t>(rows);
-      any = static_cast<std::uint16_t>(any | rows);
     }
-  }
-  if (any == 0) return;
-  for (const BondRun& run : runs) {
-    if (!run.both) continue;
     const BlockEvents found = sum<observing>(view(part, slot, row, part.words.data()), {&run, 1});
     break_other_ends(part, slot, row, found.broken_for_both, events);
   }
