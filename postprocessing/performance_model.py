@@ -6,7 +6,8 @@ import math
 import numpy
 
 BLOCK_ROWS = 16  # rows are dealt out in whole blocks, src/parallel/partition.hpp
-BONDS_PER_HALO_PARTICLE = 10  # what packing and unpacking one costs, src/parallel/partition.cpp
+# What a cut costs, src/parallel/partition.cpp: packing and unpacking, and bonds that are evaluated for either end.
+BONDS_PER_HALO_PARTICLE, SHARE_ACROSS, BLOCKS_BEYOND_END = 10, 0.25, 1
 GAMMA_RANGE = (0.05, 4.0)
 SAME = 0.02  # resources that differ by less do not grow
 LEAST_SIZES = 4  # one more than Eq. (10) has unknowns
@@ -86,28 +87,29 @@ class Wall:
 
     def busiest(self, ranks):
         """The share of the busiest rank, where columns x blocks are dealt out as src/parallel/partition.cpp does: the
-        split with the least work and halo. None where there are more ranks than pieces."""
+        split with the least work. None where there are more ranks than pieces."""
         blocks = -(-self.rows // BLOCK_ROWS)
         shares = [self._share(parts, ranks // parts, blocks) for parts in range(1, min(ranks, self.columns) + 1)
                   if ranks % parts == 0 and ranks // parts <= blocks]
-        return min(shares, key=lambda share: share.particles + share.packing, default=None)
+        return min(shares, key=lambda share: share.particles + share.cuts, default=None)
 
     def _share(self, column_parts, block_parts, blocks):
         columns, rows = -(-self.columns // column_parts), -(-blocks // block_parts) * BLOCK_ROWS
         beside, above = min(2, column_parts - 1), min(2, block_parts - 1)  # neighbours of a rank in the middle
         halo_columns = min(2 * self.cut_columns, self.columns - columns) if beside else 0
         halo = (columns + halo_columns) * (rows + above * self.reach) - columns * rows
-        return Share(columns * rows, halo * BONDS_PER_HALO_PARTICLE / self.family, halo * self.bytes,
+        twice = SHARE_ACROSS * halo_columns * rows + BLOCKS_BEYOND_END * above * BLOCK_ROWS * columns
+        return Share(columns * rows, twice + halo * BONDS_PER_HALO_PARTICLE / self.family, halo * self.bytes,
                      (1 + beside) * (1 + above) - 1)
 
 
 @dataclasses.dataclass
 class Share:
-    """What a rank has to do in a step: particles (of whole blocks) or vessels, the packing of its halo in units of
-    particles, and what it receives."""
+    """What a rank has to do in a step: particles (of whole blocks) or vessels, what cuts cost it in units of particles,
+    and what it receives."""
 
     particles: float
-    packing: float
+    cuts: float
     bytes: float
     messages: int
 
@@ -127,13 +129,13 @@ def nodes_of(ranks, threads, cores_per_node):
 def core_rate(problem, row):
     """Particles (or vessels) that a core does in a second, from a measured run."""
     share = problem.busiest(row["ranks"])
-    return (share.particles + share.packing) * row["steps"] / (row["solve_s"] * row["threads"])
+    return (share.particles + share.cuts) * row["steps"] / (row["solve_s"] * row["threads"])
 
 
 def solve_seconds(problem, ranks, threads, steps, rate, machine):
     """Time of solving: compute at `rate` per core, then the exchange of the halo, then the reduction that ends a step.
 
-        step     = (n + packing) / (threads rate) + exchange + 2 log2(ranks) latency
+        step     = (n + cuts) / (threads rate) + exchange + 2 log2(ranks) latency
         exchange = messages latency + bytes (ranks of a node) / bandwidth
 
     as if every message left its node. None where the problem has fewer pieces than ranks."""
@@ -145,7 +147,7 @@ def solve_seconds(problem, ranks, threads, steps, rate, machine):
         ranks_of_node = min(ranks, max(1, machine.cores_per_node // threads))
         exchange = share.messages * machine.latency_s + share.bytes * ranks_of_node / machine.bandwidth_B_s
     reduction = 2 * math.ceil(math.log2(ranks)) * machine.latency_s
-    return steps * ((share.particles + share.packing) / (threads * rate) + exchange + reduction)
+    return steps * ((share.particles + share.cuts) / (threads * rate) + exchange + reduction)
 
 
 def problem_of(record):

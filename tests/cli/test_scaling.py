@@ -105,8 +105,10 @@ class Model(unittest.TestCase):
     def test_a_rank_has_its_share_and_halo(self):
         self.assertEqual(self.WALL.busiest(1).particles, 548 * 160)
         self.assertEqual(self.WALL.busiest(1).messages, 0)
-        two = self.WALL.busiest(2)  # 5 of 10 blocks each; 3 rows of every column come from the other
-        self.assertEqual((two.particles, two.messages, two.bytes), (548 * 80, 1, 548 * 3 * 12))
+        two = self.WALL.busiest(2)  # half of the columns each; those beside the cut, on both sides, come from the other
+        self.assertEqual((two.particles, two.messages, two.bytes), (274 * 160, 1, 2 * 17.4 * 160 * 12))
+        rows = Wall(columns=548, rows=1600, family=130, reach=3, cut_columns=80, bytes=12).busiest(2)  # 50 blocks each
+        self.assertEqual((rows.particles, rows.messages, rows.bytes), (548 * 800, 1, 548 * 3 * 12))
         self.assertIsNone(self.WALL.busiest(548 * 10 + 1))
         self.assertEqual([nodes_of(*shape, 48) for shape in ((48, 1), (6, 32), (49, 1), (1, 96))], [1, 6, 2, 1])
 
@@ -114,7 +116,7 @@ class Model(unittest.TestCase):
         for problem in (self.WALL, Network(1e6)):
             rate = core_rate(problem, {"ranks": 1, "threads": 2, "steps": 100, "solve_s": 3.0})
             self.assertAlmostEqual(solve_seconds(problem, 1, 2, 100, rate, self.MACHINE), 3.0)
-            self.assertAlmostEqual(solve_seconds(problem, 2, 1, 100, rate, self.MACHINE), 3.0, delta=0.1)
+            self.assertAlmostEqual(solve_seconds(problem, 2, 1, 100, rate, self.MACHINE), 3.0, delta=0.2)  # some bonds twice
 
     def test_a_slow_network_takes_its_time(self):
         slow = Machine(latency_s=1.0, bandwidth_B_s=1e10, cores_per_node=4)

@@ -43,6 +43,12 @@ TEST(Partition, LongVesselIsCutAcrossItsAxis) {
   EXPECT_EQ(p.block_parts(), 4);
 }
 
+TEST(Partition, ShortVesselIsCutLengthwise) {
+  // Across the axis each half would evaluate a seventh more: the bonds that lead into it.
+  const Partition p = make_partition(2, std::vector<double>(548, 130.0), 192, 80, 3);
+  EXPECT_EQ(p.column_parts(), 2);
+}
+
 TEST(Partition, MoreRanksThanPiecesAreRefused) {
   EXPECT_THROW(make_partition(5, std::vector<double>(2, 1.0), 32, 1, 1), RunError);
 }
