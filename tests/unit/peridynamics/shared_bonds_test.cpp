@@ -23,7 +23,7 @@ class Threads : public testing::TestWithParam<std::tuple<int, const char*, const
   void TearDown() override { omp_set_num_threads(before_); }
   static BodySetup setup() {
     const bool rod = std::string(std::get<2>(GetParam())) == "rod";
-    Parameters p = test::paper_vessel(rod ? 7e-3 : 3.7e-3);
+    Parameters p = test::paper_vessel(rod ? 25e-3 : 3.7e-3);
     if (rod) {
       p.inner_radius = 1e-6;
       p.outer_radius = 3e-4;
