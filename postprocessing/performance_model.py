@@ -6,8 +6,9 @@ import math
 import numpy
 
 BLOCK_ROWS = 16  # rows are dealt out in whole blocks, src/parallel/partition.hpp
-# What a cut costs, src/parallel/partition.cpp: packing and unpacking, and bonds that are evaluated for either end.
-BONDS_PER_HALO_PARTICLE, SHARE_ACROSS, BLOCKS_BEYOND_END = 10, 0.25, 1
+# What a cut costs, src/parallel/partition.cpp: packing and unpacking, and bonds that are evaluated for either end. Of the
+# bonds of the columns within a horizon of a cut, n pi delta^4/4 of n 4 pi delta^4/3 cross it.
+BONDS_PER_HALO_PARTICLE, SHARE_ACROSS, BLOCKS_BEYOND_END = 10, 3 / 16, 0.7
 GAMMA_RANGE = (0.05, 4.0)
 SAME = 0.02  # resources that differ by less do not grow
 LEAST_SIZES = 4  # one more than Eq. (10) has unknowns

@@ -55,31 +55,27 @@ std::int64_t Partition::past_row(int rank) const {
 }
 
 Partition make_partition(int ranks, std::span<const double> column_weights, std::int64_t rows,
-                         std::int64_t column_halo, std::int64_t row_halo) {
+                         const CutCosts& cut) {
   // Packing, sending and unpacking a halo particle costs about as much as this many bonds.
   constexpr double bonds_per_halo_particle = 10;
-  // Of the bonds of a column beside a cut that cross it; either end evaluates them.
-  constexpr double share_across = 0.25;
-  // Bonds into a part from rows beyond its end are evaluated there once more, as much work as in a block.
-  constexpr double blocks_beyond_end = 1;
+  // Bonds into a part from rows beyond its end are evaluated there once more, 16 rows at a time.
+  constexpr double blocks_beyond_end = 0.7;
   const auto columns = static_cast<int>(column_weights.size());
   const auto blocks = static_cast<int>((rows + block_rows - 1) / block_rows);
   const std::vector<double> block_weights(blocks, 1.0);
-  const double mean_weight = std::accumulate(column_weights.begin(), column_weights.end(), 0.0) / columns;
   Partition best;
   double least = 0;
   for (int block_parts = 1; block_parts <= ranks; ++block_parts) {
     const int column_parts = ranks / block_parts;
     if (column_parts * block_parts != ranks || block_parts > blocks || column_parts > columns) continue;
     Partition candidate{split(column_weights, column_parts), split(block_weights, block_parts), rows};
-    const double cuts = std::min(2, column_parts - 1), ends = std::min(2, block_parts - 1);  // of one part
-    const double own_blocks = heaviest(block_weights, candidate.block_start);
+    const double cuts = column_parts > 1 ? 2 : 0, ends = std::min(2, block_parts - 1);  // of one part
+    const double own_rows = heaviest(block_weights, candidate.block_start) * block_rows;
     const double own_columns = static_cast<double>(columns) / column_parts;
-    const double beside_cuts = cuts * static_cast<double>(column_halo) * own_blocks * block_rows;
     const double bonds = heaviest(column_weights, candidate.column_start) *
-                             (own_blocks + blocks_beyond_end * ends) * block_rows +
-                         share_across * mean_weight * beside_cuts;
-    const double halo = beside_cuts + ends * static_cast<double>(row_halo) * own_columns;
+                             (own_rows + blocks_beyond_end * block_rows * ends) +
+                         cut.bonds_across * cuts * own_rows;
+    const double halo = cut.halo_columns * cuts * own_rows + cut.halo_rows * ends * own_columns;
     const double cost = bonds + bonds_per_halo_particle * halo;
     if (best.column_start.empty() || cost < least) {
       best = candidate;

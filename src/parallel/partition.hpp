@@ -32,12 +32,17 @@ struct Partition {
   std::int64_t past_column(int rank) const { return column_start[rank % column_parts() + 1]; }
 };
 
-/// The split of `ranks` into column parts x block parts with the least work on the busiest rank. Work is the
-/// columns' weights (bonds of a column) times blocks, what is evaluated twice because a cut goes through it,
-/// and a charge for halo particles: a cut between columns makes `column_halo` columns of them on either side,
-/// a cut between blocks `row_halo` rows.
-/// Throws RunError where there are more ranks than pieces.
+/// What cuts cost each side of them.
+struct CutCosts {
+  double bonds_across = 0;  ///< a row, by a cut between columns: evaluated by both sides
+  double halo_columns = 0;  ///< of such a cut; none where both sides share memory
+  double halo_rows = 0;     ///< of a cut between blocks
+};
+
+/// The split of `ranks` into column parts x block parts of a tube with the least work on the busiest rank:
+/// the columns' weights (bonds of a column) times blocks, what is evaluated twice because a cut goes through
+/// it, and a charge for halo particles. Throws RunError where there are more ranks than pieces.
 Partition make_partition(int ranks, std::span<const double> column_weights, std::int64_t rows,
-                         std::int64_t column_halo, std::int64_t row_halo);
+                         const CutCosts& cut);
 
 }  // namespace rhexis::parallel

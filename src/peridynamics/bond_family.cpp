@@ -72,7 +72,7 @@ BondFamilies make_families(const Lattice& lattice) {
     }
     const auto first = families.bonds.begin() + families.first.back();
     const auto later = std::find_if(first, families.bonds.end(), [&](const Bond& bond) {
-      return bond.other > static_cast<std::int32_t>(i);
+      return leads_later(bond, static_cast<std::int32_t>(i));
     });
     std::sort(later, families.bonds.end(), [](const Bond& a, const Bond& b) {
       return a.row_offset != b.row_offset ? a.row_offset > b.row_offset : a.other < b.other;
@@ -102,6 +102,22 @@ std::int64_t largest_family(const Lattice& lattice, const BondFamilies& families
                               })));
   }
   return most;
+}
+
+ColumnCut mean_column_cut(const BondFamilies& families) {
+  const auto columns = static_cast<std::int32_t>(families.first.size() - 1);
+  std::int64_t steps_of_columns = 0, steps_of_bonds = 0;  // a bond of so many steps crosses as many cuts
+  for (std::int32_t c = 0; c < columns; ++c) {
+    std::int32_t furthest = 0;
+    for (const Bond& bond : families.of(static_cast<std::size_t>(c))) {
+      const std::int32_t ahead = (bond.other - c + columns) % columns;  // round the tube, the shorter way
+      if (ahead > columns / 2) continue;
+      steps_of_bonds += ahead;
+      furthest = std::max(furthest, ahead);
+    }
+    steps_of_columns += furthest;
+  }
+  return {static_cast<double>(steps_of_columns) / columns, static_cast<double>(steps_of_bonds) / columns};
 }
 
 double stable_time_step(const Lattice& lattice, const BondFamilies& families, double bond_constant,

@@ -20,11 +20,16 @@ struct Bond {
   double weight = 1;  ///< factor on force and energy, see surface_correction.hpp
 };
 
+/// A bond of column `own` leads to a later column, or up in its own.
+inline bool leads_later(const Bond& bond, std::int32_t own) {
+  return bond.other > own || (bond.other == own && bond.row_offset > 0);
+}
+
 /// Bonds of all columns, those of column c at [first[c], first[c + 1]), in an order that no partition
-/// changes, so that sums do not depend on one: first those to columns before c and to c itself, by (other,
-/// row_offset); then those to columns after c, by (row_offset, other), row_offset falling. It is the order in
-/// which contributions arrive where each column, one after another and each from its first row on, adds to
-/// the sums of columns after it (column_body_parts.hpp), and there no column is added to twice in a row.
+/// changes, so that sums do not depend on one: first those that lead to earlier columns or down, by (other,
+/// row_offset); then those that lead later, by (row_offset, other), row_offset falling. It is the order in
+/// which contributions arrive where columns, one after another and each from its first row on, add to
+/// the sums of those (column_body_parts.hpp), and there no column is added to twice in a row.
 struct BondFamilies {
   std::vector<std::int64_t> first;
   std::vector<Bond> bonds;
@@ -47,6 +52,13 @@ std::int64_t count_bonds(const Lattice& lattice, const BondFamilies& families, b
 
 /// Largest number of bonds that one particle has, ends taken into account.
 std::int64_t largest_family(const Lattice& lattice, const BondFamilies& families, bool periodic);
+
+/// What a cut along a tube's wall meets, the mean of all cuts between columns that follow each other.
+struct ColumnCut {
+  double columns;  ///< on one side that have bonds across it
+  double bonds;    ///< across it, of a row
+};
+ColumnCut mean_column_cut(const BondFamilies& families);
 
 /// Stable time step of velocity Verlet for bonds of stiffness c/|xi|, s: dt = sqrt(2 rho / max_i lambda_i).
 ///

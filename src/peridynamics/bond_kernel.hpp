@@ -45,7 +45,7 @@ struct BondConstants {
 struct BondRun {
   std::int32_t first, past;
   bool both;
-  int ends;  ///< of each bond that count here: both of those to later columns, whoever evaluates them
+  int ends;  ///< of each bond that count here: both of those that lead later, whoever evaluates them
 };
 
 /// A bond of a family that broke in some rows.
@@ -277,10 +277,8 @@ HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span
   using D = hn::CappedTag<Real, parallel::block_rows>;
   const D d;
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
-    const auto sum_at = [&](std::size_t k) { return block.sums[k] + lane; };
-    detail::Sums<D> sum{hn::LoadU(d, sum_at(0)), hn::LoadU(d, sum_at(1)), hn::LoadU(d, sum_at(2)),
-                        hn::Zero(d)};
-    if constexpr (observing) sum.energy = hn::LoadU(d, sum_at(3));
+    // Apart from the sums in memory: bonds of these rows with each other add to those meanwhile.
+    detail::Sums<D> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     for (const BondRun run : runs) {
       if (run.both) {
         detail::add_run<true, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, events);
@@ -288,10 +286,14 @@ HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span
         detail::add_run<false, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, events);
       }
     }
-    hn::StoreU(sum.x, d, sum_at(0));
-    hn::StoreU(sum.y, d, sum_at(1));
-    hn::StoreU(sum.z, d, sum_at(2));
-    if constexpr (observing) hn::StoreU(sum.energy, d, sum_at(3));
+    const auto add = [&](std::size_t k, hn::Vec<D> value) {
+      Real* const at = block.sums[k] + lane;
+      hn::StoreU(hn::Add(hn::LoadU(d, at), value), d, at);
+    };
+    add(0, sum.x);
+    add(1, sum.y);
+    add(2, sum.z);
+    if constexpr (observing) add(3, sum.energy);
   }
 }
 

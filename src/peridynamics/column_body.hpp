@@ -54,16 +54,28 @@ template <class Real>
 struct Part {
   std::int32_t first_slot = 0, past_slot = 0;
   std::int64_t first_row = 0, past_row = 0;  ///< local
-  std::vector<BondRun> runs;
-  std::vector<std::size_t> first_run;  ///< of each column, into runs
+  std::vector<BondRun> runs;                 ///< see add_runs
+  std::vector<std::size_t> first_run;        ///< of each column, into runs
   /// Of force and, when observing, energy; each column as in padded arrays.
   std::array<hwy::AlignedFreeUniquePtr<Real[]>, 4> sums;
-  std::vector<std::uint16_t> words;  ///< of one column's bonds from beyond the part
-  std::vector<BrokenBond> broken;    ///< now, of one block, for both ends
+  /// Words of the bonds that lead into the part from the 16 rows below it, and from those above; 0 for
+  /// others.
+  std::array<std::vector<std::uint16_t>, 2> beyond;
+  bool beyond_known = false;
+  std::vector<BrokenBond> broken;  ///< now, of one block, for both ends
 
   std::int32_t first_block() const { return static_cast<std::int32_t>(first_row / block_rows); }
   std::int32_t past_block() const {
     return static_cast<std::int32_t>((past_row + block_rows - 1) / block_rows);
+  }
+  /// First of the 16 rows next to an end.
+  std::int64_t row_beyond(bool above) const { return above ? past_row : first_row - block_rows; }
+  const BondRun& run_before(std::int32_t slot) const {
+    return runs[first_run[static_cast<std::size_t>(slot - first_slot)]];
+  }
+  std::span<const BondRun> runs_from(std::int32_t slot) const {
+    const std::size_t* const run = first_run.data() + (slot - first_slot);
+    return {runs.data() + run[0] + 1, runs.data() + run[1]};
   }
 };
 
@@ -174,18 +186,15 @@ class ColumnBody final : public Body {
   void restore(const Saved& saved) override;
 
  private:
-  /// Columns within a horizon of a radial cut through one side of the wall, both sides cut.
-  static std::int64_t columns_beside_cut(const Lattice& lattice) {
-    const auto columns = static_cast<double>(lattice.section.size());
-    const double share = lattice.horizon / (lattice.spacing * std::sqrt(columns));
-    return static_cast<std::int64_t>(share * columns) + 1;
-  }
   static parallel::Partition partition(const BodySetup& setup, int ranks) {
     std::vector<double> weights(setup.lattice.section.size());
     for (std::size_t c = 0; c < weights.size(); ++c)
       weights[c] = static_cast<double>(setup.families.count(c));
-    return parallel::make_partition(ranks, weights, setup.lattice.rows, columns_beside_cut(setup.lattice),
-                                    setup.families.reach);
+    const ColumnCut cut = mean_column_cut(setup.families);
+    return parallel::make_partition(ranks, weights, setup.lattice.rows,
+                                    {.bonds_across = cut.bonds,
+                                     .halo_columns = cut.columns,
+                                     .halo_rows = static_cast<double>(setup.families.reach)});
   }
 
   std::size_t global_column(std::int32_t slot) const {
@@ -294,9 +303,13 @@ class ColumnBody final : public Body {
                      const Use& use);
   void break_other_ends(Part<Real>& part, std::int32_t slot, std::int64_t row, std::size_t count,
                         ThreadEvents& events);
+  /// Of a column, in Part::beyond.
+  std::uint16_t* words_beyond(Part<Real>& part, std::int32_t slot, bool above) const {
+    return part.beyond[above].data() + (first_bond_[slot] - first_bond_[part.first_slot]);
+  }
+  void find_beyond(Part<Real>& part, bool above);
   template <bool observing>
-  void add_from_beyond(Part<Real>& part, std::int32_t slot, std::int64_t row, std::span<const BondRun> runs,
-                       ThreadEvents& events);
+  void add_from_beyond(Part<Real>& part, std::int32_t slot, bool above, ThreadEvents& events);
   template <bool observing, class Use>
   void sum_part(Part<Real>& part, ThreadEvents& events, const Use& use);
   double breaking_energy(Unit unit, const BondConstants<Real>& bond, std::uint16_t broken) const;

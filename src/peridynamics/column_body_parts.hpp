@@ -1,10 +1,11 @@
 /// ColumnBody: forces with each bond evaluated once for both of its ends, where one thread has both.
 ///
 /// Owned columns and blocks are dealt out to threads in parts, as the body's are to ranks. In a part columns
-/// are done one after another, each from its first row on. A column evaluates its bonds to later columns of
-/// the part for both ends, and adds their forces to the sums of those; what bonds leave the part, or stay in
-/// the column, each end evaluates for itself. The digits are the same either way (bond_kernel.hpp), and each
-/// particle adds in the order of its family (bond_family.hpp): parts make no difference.
+/// are done one after another, each from its first row on. Bonds that lead to later columns of the part, or
+/// up in their own, are evaluated for both ends, and their forces added to the sums of the others; those to
+/// other parts' columns each end evaluates for itself. The digits are the same either way (bond_kernel.hpp),
+/// and each particle adds in the order of its family (bond_family.hpp), what leads later as one sum: parts
+/// make no difference.
 ///
 /// Rows beyond a part's ends are in another part, which does not add to this one. Their bonds into the part
 /// are evaluated here once more, for the end that is inside.
@@ -22,7 +23,7 @@ void ColumnBody<Law, Real>::make_parts() {
     weights.push_back(static_cast<double>(first_bond_[slot + 1] - first_bond_[slot]));
   const auto count = static_cast<int>(std::min<std::int64_t>(threads_, layout.column_count));
   const parallel::Partition split = parallel::make_partition(
-      count, weights, layout.row_count, columns_beside_cut(setup_.lattice), setup_.families.reach);
+      count, weights, layout.row_count, {.bonds_across = mean_column_cut(setup_.families).bonds});
   std::size_t longest = 0;
   for (int p = 0; p < count; ++p) {
     Part<Real>& part = parts_.emplace_back();
@@ -36,7 +37,8 @@ void ColumnBody<Law, Real>::make_parts() {
       longest = std::max(longest, bonds_of({slot, 0}).size());
     }
     part.first_run.push_back(part.runs.size());
-    part.words.resize(longest);
+    for (auto& words : part.beyond)
+      words.resize(static_cast<std::size_t>(first_bond_[part.past_slot] - first_bond_[part.first_slot]));
     part.broken.resize(longest * static_cast<std::size_t>(block_rows));
     for (auto& sums : part.sums)
       sums = hwy::AllocateAligned<Real>(domain_.stride() * (part.first_run.size() - 1));
@@ -44,7 +46,7 @@ void ColumnBody<Law, Real>::make_parts() {
   find_opposites();
 }
 
-/// Numbers of bonds to later columns in the families of those: among the bonds there to earlier columns,
+/// Numbers of bonds that lead later in the families of their other ends: among the bonds there that do not,
 /// which are sorted (BondFamilies).
 template <class Law, class Real>
 void ColumnBody<Law, Real>::find_opposites() {
@@ -54,10 +56,10 @@ void ColumnBody<Law, Real>::find_opposites() {
     const auto own = static_cast<std::int32_t>(global_column(slot));
     for (std::size_t b = 0; b < bonds_of({slot, 0}).size(); ++b) {
       const Bond& bond = reference_bond({slot, 0}, b);
-      if (bond.other <= own) continue;
+      if (!leads_later(bond, own)) continue;
       const std::span<const Bond> family = setup_.families.of(static_cast<std::size_t>(bond.other));
       const auto earlier = std::find_if(family.begin(), family.end(),
-                                        [&](const Bond& other) { return other.other >= bond.other; });
+                                        [&](const Bond& other) { return leads_later(other, bond.other); });
       const auto found = std::lower_bound(family.begin(), earlier, std::pair(own, -bond.row_offset),
                                           [](const Bond& other, const std::pair<std::int32_t, int>& wanted) {
                                             return std::pair(other.other, other.row_offset) < wanted;
@@ -81,15 +83,13 @@ void ColumnBody<Law, Real>::add_runs(Part<Real>& part, std::int32_t slot) const 
   part.runs.push_back({0, b, false, 0});
   const std::size_t start = part.runs.size();
   for (; b < bonds; ++b) {
-    const std::int32_t other = family[static_cast<std::size_t>(b)].other;
-    if (other < own && other >= first) continue;
-    const bool both = other > own && other < past;
-    const int ends = other > own ? 2 : 1;
-    const BondRun& last = part.runs.back();
-    if (part.runs.size() > start && last.both == both && last.ends == ends && last.past == b) {
+    const Bond& bond = family[static_cast<std::size_t>(b)];
+    if (!leads_later(bond, own)) continue;
+    const bool both = bond.other < past;
+    if (part.runs.size() > start && part.runs.back().both == both) {
       ++part.runs.back().past;
     } else {
-      part.runs.push_back({b, b + 1, both, ends});
+      part.runs.push_back({b, b + 1, both, 2});
     }
   }
 }
@@ -132,30 +132,34 @@ void ColumnBody<Law, Real>::break_other_ends(Part<Real>& part, std::int32_t slot
   }
 }
 
-/// Bonds from 16 rows beyond the part, from `row` on, into it: of each run those that lead up, or down. They
-/// stand together, for bonds to later columns are sorted by how far they lead (BondFamilies).
+/// Finds `part.beyond` of one of its ends from the words of the bonds' other ends, which are in the part.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::find_beyond(Part<Real>& part, bool above) {
+  std::ranges::fill(part.beyond[above], std::uint16_t{0});
+  for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
+    std::uint16_t* const words = words_beyond(part, slot, above);
+    for (const BondRun run : part.runs_from(slot)) {
+      for (std::int32_t b = run.first; run.both && b < run.past; ++b) {
+        const int up = reference_bond({slot, 0}, static_cast<std::size_t>(b)).row_offset;
+        if (above ? up >= 0 : up <= 0) continue;
+        unsigned rows = 0;
+        each_opposite(part, slot, part.row_beyond(above), b,
+                      [&](std::uint16_t there, Unit, int shift) { rows |= shifted(there, -shift); });
+        words[b] = static_cast<std::uint16_t>(rows);
+      }
+    }
+  }
+}
+
+/// Bonds from a column's rows beyond the part into it.
 template <class Law, class Real>
 template <bool observing>
-void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot, std::int64_t row,
-                                            std::span<const BondRun> runs, ThreadEvents& events) {
-  const bool up = row < part.first_row;
-  const auto leads_in = [&](std::int32_t b) {
-    const int offset = reference_bond({slot, 0}, static_cast<std::size_t>(b)).row_offset;
-    return up ? offset > 0 : offset < 0;
-  };
-  for (BondRun run : runs) {
-    if (!run.both) continue;
-    while (run.first < run.past && !leads_in(run.first)) ++run.first;
-    while (run.first < run.past && !leads_in(run.past - 1)) --run.past;
-    for (std::int32_t b = run.first; b < run.past; ++b) {
-      unsigned rows = 0;
-      each_opposite(part, slot, row, b,
-                    [&](std::uint16_t word, Unit, int shift) { rows |= shifted(word, -shift); });
-      part.words[static_cast<std::size_t>(b)] = static_cast<std::uint16_t>(rows);
-    }
-    const BlockEvents found = sum<observing>(view(part, slot, row, part.words.data()), {&run, 1});
-    break_other_ends(part, slot, row, found.broken_for_both, events);
-  }
+void ColumnBody<Law, Real>::add_from_beyond(Part<Real>& part, std::int32_t slot, bool above,
+                                            ThreadEvents& events) {
+  const std::int64_t row = part.row_beyond(above);
+  const BlockEvents found =
+      sum<observing>(view(part, slot, row, words_beyond(part, slot, above)), part.runs_from(slot));
+  break_other_ends(part, slot, row, found.broken_for_both, events);
 }
 
 /// Sums the forces of a part's particles, and their energies when observing, in `part.sums`; calls
@@ -166,6 +170,10 @@ void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, con
   const PointLayout& layout = domain_.layout();
   const bool below = periodic_ || layout.first_row + part.first_row > 0;
   const bool above = periodic_ || layout.first_row + part.past_row < layout.rows;
+  if (!std::exchange(part.beyond_known, true)) {
+    if (below) find_beyond(part, false);
+    if (above) find_beyond(part, true);
+  }
   const std::int32_t first_block = part.first_block(), past_block = part.past_block();
   const auto add_block = [&](Unit unit, std::span<const BondRun> runs) {
     const BlockView<Real> here =
@@ -176,7 +184,7 @@ void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, con
     events.crushed += found.crushed;
   };
   for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
-    const BondRun& before = part.runs[part.first_run[slot - part.first_slot]];
+    const BondRun& before = part.run_before(slot);
     // Of rows beyond the part, to which bonds across its ends add, nobody reads the sums.
     const BlockView<Real> below_part = view(part, slot, part.first_row - block_rows, nullptr);
     for (std::size_t k = 0; k < (observing ? 4 : 3); ++k)
@@ -185,12 +193,11 @@ void ColumnBody<Law, Real>::sum_part(Part<Real>& part, ThreadEvents& events, con
       add_block({slot, block}, {&before, 1});
   }
   for (std::int32_t slot = part.first_slot; slot < part.past_slot; ++slot) {
-    const std::size_t* const run = part.first_run.data() + (slot - part.first_slot);
-    const std::span<const BondRun> runs(part.runs.data() + run[0] + 1, part.runs.data() + run[1]);
-    if (below) add_from_beyond<observing>(part, slot, part.first_row - block_rows, runs, events);
-    for (std::int32_t block = first_block; block < past_block; ++block) add_block({slot, block}, runs);
+    if (below) add_from_beyond<observing>(part, slot, false, events);
+    for (std::int32_t block = first_block; block < past_block; ++block)
+      add_block({slot, block}, part.runs_from(slot));
     use(slot);
-    if (above) add_from_beyond<observing>(part, slot, part.past_row, runs, events);
+    if (above) add_from_beyond<observing>(part, slot, true, events);
   }
 }
 

@@ -213,6 +213,7 @@ void ColumnBody<Law, Real>::restore(const Saved& saved) {
   per_period_ = saved.wrapped ? 1 / wrap_period : 0;
   steps_ = saved.frame_phase;
   forces_known_ = false;
+  for (Part<Real>& part : parts_) part.beyond_known = false;
   std::ranges::fill(changed_, char{1});
   auto word = saved.words.begin();
   for (std::int32_t slot = 0; slot < domain_.layout().column_count; ++slot) {

@@ -85,7 +85,7 @@ TEST(BondFamilies, EveryBondHasItsExactOpposite) {
   }
 }
 
-TEST(BondFamilies, EarlierColumnsComeByColumnAndLaterOnesByRow) {
+TEST(BondFamilies, EarlierBondsComeByColumnAndLaterOnesByRow) {
   Parameters p = test::paper_vessel();
   resolve(p);
   const Lattice lattice = make_lattice(p);
@@ -95,9 +95,9 @@ TEST(BondFamilies, EarlierColumnsComeByColumnAndLaterOnesByRow) {
     const std::span<const Bond> family = f.of(i);
     for (std::size_t b = 1; b < family.size(); ++b) {
       const Bond &a = family[b - 1], &next = family[b];
-      if (next.other <= own) {
+      if (!leads_later(next, own)) {
         ASSERT_LT(std::pair(a.other, a.row_offset), std::pair(next.other, next.row_offset));
-      } else if (a.other > own) {
+      } else if (leads_later(a, own)) {
         ASSERT_LT(std::pair(-a.row_offset, a.other), std::pair(-next.row_offset, next.other));
       }
     }
@@ -113,6 +113,19 @@ TEST(BondFamilies, CountOfAShortBodyIsCountedByHand) {
   EXPECT_EQ(f.count(0), 4);
   line.rows = 10;
   EXPECT_EQ(count_bonds(line, f, true), 20);
+}
+
+TEST(BondFamilies, CutOfARingIsCountedByHand) {
+  // One layer of columns around, horizon 1.5 spacings: a column has three bonds to each of its neighbours.
+  Lattice ring{polar_cross_section(0.95, 1.05, 0.1), 3, 0.1, 0.1, 0.15};
+  const ColumnCut cut = mean_column_cut(make_families(ring));
+  EXPECT_EQ(cut.columns, 1);
+  EXPECT_EQ(cut.bonds, 3);
+  // 2.1 spacings: one to the next but one besides, which goes through two cuts.
+  ring.horizon = 0.21;
+  const ColumnCut wider = mean_column_cut(make_families(ring));
+  EXPECT_EQ(wider.columns, 2);
+  EXPECT_EQ(wider.bonds, 3 + 2 * 1);
 }
 
 TEST(StableTimeStep, TendsToTheContinuumValue) {

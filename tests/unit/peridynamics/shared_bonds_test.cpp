@@ -21,7 +21,7 @@ class Threads : public testing::TestWithParam<std::tuple<int, const char*, const
  protected:
   void SetUp() override { omp_set_num_threads(std::get<0>(GetParam())); }
   void TearDown() override { omp_set_num_threads(before_); }
-  static BodySetup setup() {
+  static BodySetup setup(const std::string& law = "pmb") {
     const bool rod = std::string(std::get<2>(GetParam())) == "rod";
     Parameters p = test::paper_vessel(rod ? 25e-3 : 3.7e-3);
     if (rod) {
@@ -32,6 +32,7 @@ class Threads : public testing::TestWithParam<std::tuple<int, const char*, const
     }
     p.ends = std::get<1>(GetParam());
     p.critical_stretch = 0.05;
+    p.law.name = law;
     return test::setup_of(p, 1e-7);
   }
 
@@ -98,6 +99,30 @@ TEST_P(Threads, SharedBondsGiveWhatEachEndFindsForItself) {
   EXPECT_EQ(all.crushed_bonds, expected.crushed_bonds);
   EXPECT_GT(all.broken_bonds, 0);
   EXPECT_GT(all.crushed_bonds, 0);
+}
+
+TEST_P(Threads, TornAndRestoredBodyGoesOnAsWithOneThread) {
+  for (const char* law : {"pmb", "lps"}) {
+    const BodySetup setup = Threads::setup(law);
+    const auto torn = [&](int threads) {
+      omp_set_num_threads(threads);
+      const auto body = make_body(BodySetup(setup), test::self()),
+                 other = make_body(BodySetup(setup), test::self());
+      const double spacing = setup.lattice.spacing;
+      for (const auto& [b, u] : {std::pair(body.get(), spacing), std::pair(other.get(), 2 * spacing)}) {
+        b->set_state(test::sample(*b, test::wild(u)), test::sample(*b, test::wild(u / 1e-6)));
+        for (int i = 0; i < 10; ++i) b->advance(0, 0);  // each breaks other bonds
+      }
+      other->restore(body->save());
+      std::int64_t broken = 0;
+      for (int i = 0; i < 10; ++i) broken += other->advance(0, 0).broken;
+      EXPECT_GT(broken, 0) << law;
+      return other->save();
+    };
+    const Body::Saved alone = torn(1), shared = torn(std::get<0>(GetParam()));
+    EXPECT_EQ(alone.displacement, shared.displacement) << law;
+    EXPECT_EQ(alone.words, shared.words) << law;
+  }
 }
 
 }  // namespace
