@@ -6,7 +6,7 @@
     postprocessing/benchmarks.py [--build build/release] [--quick] [-o results/benchmarks]
 
 Runs bench_machine, bench_bonds, bench_network and bench_output of the build (sources in tests/bench, which say what is
-measured), and a short run with few and with more pictures. Every value is a median: on one thread of processor time, on
+measured), and short runs with few and with more pictures. Other values are medians: on one thread of processor time, on
 several of wall-clock time, which feels whatever else runs. The peak is measured right before and after each sample that is
 compared with it, for the clock of a shared machine swings. Writes benchmarks.json and benchmarks.md, the table that it also
 prints. --quick takes few samples, less than a minute in all.
@@ -26,6 +26,7 @@ from scaling_runs import describe_machine, read_machine
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAMS = ("bench_machine", "bench_bonds", "bench_network", "bench_output")
 SAMPLES, QUICK_SAMPLES = 31, 3
+PICTURE_ROUNDS, QUICK_PICTURE_ROUNDS = 4, 1
 QUICK_FILTER = "-rows=1000|across=10|tier=explicit|memory="  # all but these
 
 
@@ -49,23 +50,25 @@ def case_of(benchmark):
     return {"what": words[0], **keys, "samples": benchmark["iterations"], **counters}
 
 
-def pictures(program, output):
-    """Seconds of a picture and of ParaView's start, from runs of 100 steps with 2 and with 11 pictures; None without ParaView."""
-    runs = []
-    for every in (100, 10):
+def pictures(program, output, rounds):
+    """Seconds of a picture and of ParaView's start, from runs of 100 steps with 2 and with 11 pictures, the quickest of those that
+    take turns for `rounds`: ParaView's start alone varies by more than pictures cost. None without ParaView."""
+    runs = {100: [], 10: []}  # by steps between pictures
+    for every in (100, 10) * rounds:
         folder = output / f"pictures_{every}"
         overrides = ("time.end=50 us", "output.every_steps=100000", "output.fields=[]", "output.movie=false", f"insitu.every_steps={every}")
         subprocess.run([program, "run", ROOT / "inputs/perivessel.toml", "-o", folder, "--quiet",
                         *(word for override in overrides for word in ("--set", override))], check=True)
-        record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-        runs.append((len(list((folder / "images").glob("*.png"))), record["performance"], record["results"]["steps"]))
-    (few, first, steps), (many, second, _) = runs
+        runs[every].append(json.loads((folder / "run.json").read_text(encoding="utf-8")))
+    few, many = (len(list((output / f"pictures_{every}/images").glob("*.png"))) for every in runs)
     if few == many:
         return None
-    picture = (second["insitu_s"] - first["insitu_s"]) / (many - few)
-    step = min(first["solve_s"], second["solve_s"]) / steps
-    return {"what": "pictures", "s_per_picture": picture, "start_s": first["insitu_s"] - few * picture,
-            "steps_per_picture": picture / step, "threads": first["threads"]}
+    first, second = (min(run["performance"]["insitu_s"] for run in of) for of in runs.values())
+    record = min(runs[100], key=lambda run: run["performance"]["solve_s"])
+    picture = (second - first) / (many - few)
+    step = record["performance"]["solve_s"] / record["results"]["steps"]
+    return {"what": "pictures", "s_per_picture": picture, "start_s": first - few * picture,
+            "steps_per_picture": picture / step, "threads": record["performance"]["threads"]}
 
 
 def machine_of(program, output, context):
@@ -166,7 +169,7 @@ def main():
         found = run_program(program, output, options.quick)
         context = found["context"]
         cases += [case_of(benchmark) for benchmark in found["benchmarks"]]
-    cases += filter(None, [pictures(rhexis, output)])
+    cases += filter(None, [pictures(rhexis, output, QUICK_PICTURE_ROUNDS if options.quick else PICTURE_ROUNDS)])
     results = {"machine": machine_of(rhexis, output, context), "time": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
                "load": [*load, os.getloadavg()[0]], "cases": cases}
     (output / "benchmarks.json").write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
