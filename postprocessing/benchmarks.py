@@ -6,8 +6,8 @@
     postprocessing/benchmarks.py [--build build/release] [--quick] [-o results/benchmarks]
 
 Runs bench_machine, bench_bonds, bench_network and bench_output of the build (sources in tests/bench, which say what is
-measured), and short runs with few and with more pictures. Other values are medians: on one thread of processor time, on
-several of wall-clock time, which feels whatever else runs. The peak is measured right before and after each sample that is
+measured), and short runs with few and with more pictures, of which the quickest count. Other values are medians: on one thread of
+processor time, on several of wall-clock time, which feels whatever else runs. The peak is measured right before and after each sample that is
 compared with it, for the clock of a shared machine swings. Writes benchmarks.json and benchmarks.md, the table that it also
 prints. --quick takes few samples, less than a minute in all.
 """

@@ -3,7 +3,8 @@
 #   postprocessing/make_movie.sh results/perivessel/images [movie.mp4] [frames per second]
 # The movie's default place is beside the folder of images; images are taken in the order of their names.
 set -euo pipefail
-images=${1:?usage: make_movie.sh IMAGE_DIRECTORY [MOVIE.mp4] [FRAMES_PER_SECOND]}
+[ -d "${1-}" ] || { echo "usage: make_movie.sh IMAGE_DIRECTORY [MOVIE.mp4] [FRAMES_PER_SECOND]" >&2; exit 2; }
+images=$1
 movie=${2:-$(dirname "$(realpath "$images")")/movie.mp4}
 rate=${3:-12}
 command -v ffmpeg > /dev/null || { echo "error: ffmpeg is not installed (Debian: ffmpeg)" >&2; exit 1; }

@@ -1,7 +1,6 @@
 """What the scripts have in common that draw saved series: arguments, moments in time, the loop over them."""
 
 import argparse
-import re
 import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -12,15 +11,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "catalyst_script
 
 
 def read_frames(path):
-    """(time in s, step) of each moment in the file; the step is in the names of the data sets."""
+    """(time in s, step) of each moment in the file."""
     frames = []
     for grid in ElementTree.parse(path).getroot().iter("Grid"):
-        time = grid.find("Time")
-        if time is None:
-            continue
-        data_sets = " ".join(item.text for item in grid.iter("DataItem") if item.text)
-        step = re.search(r":/\w+/(\d+)", data_sets)
-        frames.append((float(time.get("Value")), int(step.group(1)) if step else len(frames)))
+        time, step = grid.find("Time"), grid.find("Information[@Name='step']")
+        if time is not None and step is not None:
+            frames.append((float(time.get("Value")), int(step.get("Value"))))
     return frames
 
 

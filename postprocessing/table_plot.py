@@ -26,5 +26,9 @@ def main(description, name, what, plot):
     if not arguments.table.exists():
         sys.exit(f"error: no file {arguments.table}")
     output = arguments.output or arguments.table.with_suffix(".png")
-    plot(read(arguments.table)).savefig(output, dpi=150)
+    try:
+        figure = plot(read(arguments.table))
+    except (KeyError, IndexError, ValueError, TypeError) as error:
+        sys.exit(f"error: {arguments.table} is not the {name}.csv of {what} ({error})")
+    figure.savefig(output, dpi=150)
     print(output)

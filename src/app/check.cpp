@@ -50,12 +50,13 @@ double body_bytes(const Configuration& c, const Lattice& lattice, const BondFami
   const double local = peridynamics::Heterogeneity(c.vessel).uniform() ? 0 : 2 * real;
   const double dilatation = peridynamics::with_law(
       c.vessel.law, [&]<class Law>(const Law&) { return Law::state_based ? real + sizeof(double) : 0.0; });
-  const double state = particles * (6 * sizeof(double) + 6 * real + local + dilatation);
+  const double sums = 4 * real + sizeof(double);  // of force and energy; family volumes
+  const double state = particles * (6 * sizeof(double) + 6 * real + sums + local + dilatation);
   const double bits = static_cast<double>(families.bonds.size()) * blocks * sizeof(std::uint16_t);
   // Families of all columns on every rank, and the kernel's tables of them once.
   const double tables =
       static_cast<double>(families.bonds.size()) *
-      (ranks * static_cast<double>(sizeof(peridynamics::Bond)) + 7 * real + sizeof(std::int32_t));
+      (ranks * static_cast<double>(sizeof(peridynamics::Bond)) + 10 * real + 2 * sizeof(std::int32_t));
   const double observed = particles * (8 + 3 + 3) * sizeof(double);
   return state + bits + tables + observed;
 }

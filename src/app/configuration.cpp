@@ -11,6 +11,7 @@
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/units.hpp"
+#include "parallel/together.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
 #include "peridynamics/strength.hpp"
@@ -63,8 +64,9 @@ void find_files(std::vector<std::string>& files, const std::string& key, const s
       } else if (fs::exists(beside)) {
         found = fs::canonical(beside).string();
       } else {
-        error = "there is no " + what + " " + fs::absolute(file).lexically_normal().string() + " or " +
-                fs::absolute(beside).lexically_normal().string();
+        const std::string here = fs::absolute(file).lexically_normal().string(),
+                          there = fs::absolute(beside).lexically_normal().string();
+        error = "there is no " + what + " " + here + (there == here ? "" : " or " + there);
       }
     }
     error = comm.broadcast(error);
@@ -243,6 +245,12 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
     } catch (const InputError& error) {
       throw InputError(error.what(), "network.file_length_unit");
     }
+    for (const input::ResolvedValue& given : c.resolved.values) {
+      const bool of_trees = input::section_of(given.key) == "tree" || given.key == "flow.inlet_pressure" ||
+                            given.key == "flow.outlet_pressure" || given.key == "flow.inlet_flow";
+      if (of_trees && given.origin != "default")
+        throw InputError("says something of a tree; of a network from files, the files say it", given.key);
+    }
     find_files(n.files, "network.files", "network file", c.file, comm);
     return;
   }
@@ -344,8 +352,11 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
                                  parallel::Communicator comm) {
   Configuration c;
   c.file = file;
-  const input::Document document = input::parse_document(read_on_root(file, comm), file, overrides);
-  c.resolved = input::read(document, declare_model(c, document));
+  const std::string text = read_on_root(file, comm);
+  parallel::together(comm, [&] {  // a rank may lack the database of units
+    const input::Document document = input::parse_document(text, file, overrides);
+    c.resolved = input::read(document, declare_model(c, document));
+  });
   try {
     if (c.model == "vessel") {
       resolve_vessel(c);

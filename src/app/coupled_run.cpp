@@ -58,8 +58,9 @@ class CascadeRun : private RunBase {
       return last == Ending::interrupted;
     });
     say_summary(ending == Ending::interrupted ? "interrupted"
-                : next->at_rest() ? fmt::format("no vessel's risk is above {}", text(c_.coupling.risk_limit))
-                                  : "after cascade.events");
+                : next->at_rest()
+                    ? fmt::format("no other vessel's risk is above {}", text(c_.coupling.risk_limit))
+                    : "after cascade.events");
     return ending;
   }
 

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
 
 #include "app/console.hpp"
 #include "app/graph_network.hpp"
@@ -155,41 +158,36 @@ class DistributedTier : public NetworkTier {
     s.highest_pressure = comm_.all_reduce(high, parallel::Reduce::max);
   }
 
-  /// By the rank that has the vessel.
+  /// By the rank that has the vessel, told to all.
   QueriedVessel query(std::int64_t id, const hemodynamics::GraphFlow& flow) const {
     const auto found = std::find(vessel_id_.begin(), vessel_id_.end(), id);
     QueriedVessel q;
-    double values[9] = {};
     if (found != vessel_id_.end()) {
       q = describe_vessel(part_.local, flow, static_cast<std::uint32_t>(found - vessel_id_.begin()),
                           mechanics_);
-      const double own[9] = {static_cast<double>(id),
-                             static_cast<double>(q.kind),
-                             static_cast<double>(q.generation),
-                             q.radius,
-                             q.length,
-                             q.wall_thickness,
-                             q.flow,
-                             q.pressure_from,
-                             q.pressure_to};
-      std::copy_n(own, 9, values);
     }
-    comm_.all_reduce(values, parallel::Reduce::sum);
-    q.vessel = static_cast<std::int64_t>(values[0]);
-    q.kind = static_cast<network::VesselKind>(values[1]);
-    q.generation = static_cast<int>(values[2]);
-    q.radius = values[3];
-    q.length = values[4];
-    q.wall_thickness = values[5];
-    q.flow = values[6];
-    q.pressure_from = values[7];
-    q.pressure_to = values[8];
+    double kind = static_cast<double>(q.kind), generation = q.generation, placed = q.start && q.end ? 1 : 0;
+    auto start = q.start.value_or(std::array{0.0, 0.0, 0.0}), end = q.end.value_or(start);
+    double* const values[] = {
+        &kind,     &generation,      &q.radius,      &q.length, &q.wall_thickness, &q.strength_factor,
+        &q.flow,   &q.pressure_from, &q.pressure_to, &placed,   &start[0],         &start[1],
+        &start[2], &end[0],          &end[1],        &end[2]};
+    std::vector<double> sums;
+    for (const double* value : values) sums.push_back(found != vessel_id_.end() ? *value : 0.0);
+    comm_.all_reduce(sums, parallel::Reduce::sum);
+    for (std::size_t i = 0; i < sums.size(); ++i) *values[i] = sums[i];
+    q.vessel = id;
+    q.kind = static_cast<network::VesselKind>(kind);
+    q.generation = static_cast<int>(generation);
+    q.start = placed > 0 ? std::optional(start) : std::nullopt;
+    q.end = placed > 0 ? std::optional(end) : std::nullopt;
     return q;
   }
 
   /// Each rank shows an even share of the budget, its widest.
   void show(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
-    if (part_.local.x.empty() && part_.local.vessels() > 0) {
+    const bool bare = part_.local.x.empty() && part_.local.vessels() > 0;
+    if (total(bare ? 1 : 0) > 0) {  // a rank that has no vessels cannot tell
       s.warnings.push_back(no_coordinates);
       return;
     }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include "output/numbered_picture.hpp"
@@ -27,6 +28,16 @@ int run_program(std::vector<std::string> arguments) {
   return WEXITSTATUS(status);
 }
 
+/// As a pattern that means just this path.
+std::string literally(const std::string& path) {
+  std::string pattern;
+  for (const char c : path) {
+    if (std::string_view("[]*?{}\\").find(c) != std::string_view::npos) pattern += '\\';
+    pattern += c;
+  }
+  return pattern;
+}
+
 }  // namespace
 
 std::string make_movie(const std::filesystem::path& images, const std::filesystem::path& movie,
@@ -42,8 +53,8 @@ std::string make_movie(const std::filesystem::path& images, const std::filesyste
   if (longest->second < 2) return "there is one picture only";
   const int status = run_program(
       {"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-framerate", fmt::format("{}", frames_per_second),
-       "-pattern_type", "glob", "-i", (images / (longest->first + "_*.png")).string(), "-c:v", "libx264",
-       "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", movie.string()});
+       "-pattern_type", "glob", "-i", literally((images / longest->first).string()) + "_*.png", "-c:v",
+       "libx264", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", movie.string()});
   if (status == 127 || status == -1) return "ffmpeg could not be started; is it installed?";
   if (status != 0) return fmt::format("ffmpeg failed with status {}", status);
   return {};

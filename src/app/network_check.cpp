@@ -6,7 +6,6 @@
 
 #include "app/check.hpp"
 #include "app/console.hpp"
-#include "app/graph_network.hpp"
 #include "app/network_tier.hpp"
 #include "app/stopwatch.hpp"
 #include "core/format.hpp"

@@ -10,7 +10,6 @@
 
 #include "app/console.hpp"
 #include "app/network_tier.hpp"
-#include "app/run_options.hpp"
 #include "coupling/hand_over.hpp"
 #include "coupling/net_pressure.hpp"
 #include "output/run_record.hpp"

@@ -51,7 +51,10 @@ Ending VesselRun::run() {
     if (c_.vessel.equilibrium_pressure > 0 && options_.restart.empty()) start_at_equilibrium();
     time_loop();
     if (series_) series_->finish();
-    if (coupling_ != nullptr) coupling_->end(time_at(step_));
+    if (coupling_ != nullptr) {
+      coupling_->end(time_at(step_));
+      results_.coupling = coupling_->results();
+    }
     finish_insitu();
     make_movie();
     return interrupted_;
@@ -274,7 +277,15 @@ void VesselRun::time_loop() {
     console_.progress(step_, c_.steps,
                       fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
                                   quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
-    if (interrupted_ || step_ == c_.steps) return;
+    if (interrupted_ || step_ == c_.steps) {
+      // No further step tells what happened at this one.
+      const peridynamics::Totals t = body_->totals();
+      std::uint64_t flags = 0;
+      if (t.broken_bonds > 0) flags |= Flag::broken;
+      if (t.max_damage >= peridynamics::rupture_damage) flags |= Flag::ruptured;
+      take_notice(step_, flags);
+      return;
+    }
 
     const Stopwatch watch(spent_.solve);
     vent(step_);

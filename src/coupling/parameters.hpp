@@ -1,4 +1,4 @@
-/// Input keys of the sections coupling and body.
+/// Input keys of the sections coupling, body and cascade.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ struct VesselState {
   double leak = 0;                    ///< m3/s
   double pressure_from = 0, pressure_middle = 0, pressure_to = 0;  ///< Pa
 
-  /// What is lost or found, relative to the inflow: zero but for rounding.
+  /// What is lost or found, relative to the largest of the three: zero but for rounding.
   double imbalance() const;
 };
 

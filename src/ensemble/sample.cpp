@@ -51,7 +51,13 @@ std::optional<Sample> simulate(const Parameters& p, const peridynamics::Paramete
     }
   }
   body->observe(pressure_at(sample.steps));
-  if (!peridynamics::holds_no_more_than_was_put_in(body->totals())) refuse();
+  const peridynamics::Totals last = body->totals();
+  if (!peridynamics::holds_no_more_than_was_put_in(last)) refuse();
+  if (last.broken_bonds > 0 && !sample.first_break) sample.first_break = time_at(sample.steps);
+  if (last.max_damage >= peridynamics::rupture_damage && !sample.ruptured) {
+    sample.ruptured = true;
+    sample.onset = time_at(sample.steps);
+  }
   sample.max_displacement = body->max_displacement();
   bond_evaluations += body->bond_evaluations();
   return sample;

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cassert>
-#include <cerrno>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -27,6 +25,17 @@ Slab slab_of(const WordBlock& block) {
           .stride = {1, 1},
           .count = {size(block.row_count), size(block.word_count)},
           .block = {1, 1}};
+}
+
+/// All of them, or none.
+Slab slab_of_bytes(std::size_t size, bool all) {
+  const auto bytes = static_cast<hsize_t>(size);
+  return {.dimensions = 1,
+          .shape = {bytes},
+          .start = {0},
+          .stride = {1},
+          .count = {all ? bytes : 0},
+          .block = {1}};
 }
 
 void read_array(const Hdf5File& file, const parallel::Communicator& communicator, const std::string& name,
@@ -76,7 +85,9 @@ void CheckpointWriter::write(const std::string& name, double value) {
 }
 
 void CheckpointWriter::write(const std::string& name, const std::string& text) {
-  lay_out([&](Hdf5File& file) { file.write_text("/", name, text); });
+  // With its terminating zero: HDF5 has no place for nothing.
+  write_array(name, H5T_STD_U8LE, H5T_NATIVE_UINT8, slab_of_bytes(text.size() + 1, communicator_.is_root()),
+              text.c_str());
 }
 
 void CheckpointWriter::close() {
@@ -144,7 +155,9 @@ void CheckpointReader::read(const std::string& name, double& value) {
 }
 
 void CheckpointReader::read(const std::string& name, std::string& text) {
-  parallel::together<InputError>(communicator_, [&] { text = file_->read_text("/", name); });
+  parallel::together<InputError>(communicator_, [&] { text.resize(file_->shape(name).at(0)); });
+  read_array(*file_, communicator_, name, H5T_NATIVE_UINT8, slab_of_bytes(text.size(), true), text.data());
+  if (!text.empty()) text.pop_back();
 }
 
 }  // namespace rhexis::output

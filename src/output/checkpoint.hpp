@@ -1,8 +1,8 @@
 /// The state of a run by name, for a restart on any number of ranks.
 ///
 /// Distributed arrays are stored in the partition-independent numbering (PointLayout) or as a table of words,
-/// so ranks that divide the body differently read what they need; text and numbers that all ranks share are
-/// attributes.
+/// so ranks that divide the body differently read what they need. What all ranks share: numbers are
+/// attributes, text, which may be longer than those can be, data sets.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ class CheckpointWriter {
 
   void write(const std::string& name, const PointLayout& layout, std::span<const double> values);
   void write(const std::string& name, const WordBlock& block, std::span<const std::uint16_t> values);
-  /// The same value on every rank; text up to 60 kB.
+  /// The same value on every rank.
   void write(const std::string& name, std::int64_t value);
   void write(const std::string& name, double value);
   void write(const std::string& name, const std::string& text);

@@ -16,8 +16,9 @@ enum class EarlierResults {
 /// Makes `directory` with its parents, `images/` and `checkpoints/`, and makes sure that it can be written
 /// to. Of earlier results only the files that runs write are removed (run.json, history.csv, particles*.h5
 /// and .xdmf, network.*, tables, movie.mp4, images/<name>_<digits>.png, and the same in a cascade's folders
-/// event_<digits>); checkpoints and everything else stay. Collective; throws InputError on all ranks if the
-/// folder cannot be used, and then leaves nothing new behind.
+/// event_<digits>); checkpoints and everything else stay. The samples of an ensemble, which took long, are
+/// not removed: their folder is refused. Collective; throws InputError on all ranks if the folder cannot be
+/// used, and then leaves nothing new behind.
 void prepare_directory(const std::filesystem::path& directory, EarlierResults earlier,
                        const parallel::Communicator& communicator);
 

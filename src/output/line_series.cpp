@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <numeric>
 #include <stdexcept>
@@ -86,12 +85,13 @@ std::string LineSeries::xdmf_grid(const LineSource& source, const std::string& p
   return fmt::format(
              R"(      <Grid Name="network" GridType="Uniform">
         <Time Value="{}"/>
+        <Information Name="step" Value="{}"/>
         <Topology TopologyType="Polyline" NumberOfElements="{}" NodesPerElement="2">
           {}
         </Topology>
         <Geometry GeometryType="XYZ">{}</Geometry>
 )",
-             source.time_s(), layout_.cells.global_count(),
+             source.time_s(), source.step(), layout_.cells.global_count(),
              series_.xdmf_integers("/connectivity", 2, Centring::cell),
              series_.xdmf_reals("/position", 3, Centring::point)) +
          series_.xdmf_attributes(place, "") + FieldSeries::xdmf_annotations(source.annotations()) +

@@ -58,12 +58,13 @@ std::string PointSeries::xdmf_grid(const PointSource& source, const std::string&
   return fmt::format(
              R"(      <Grid Name="particles" GridType="Uniform">
         <Time Value="{}"/>
+        <Information Name="step" Value="{}"/>
         <Topology TopologyType="Polyvertex" NumberOfElements="{}" NodesPerElement="1">
           {}
         </Topology>
         <Geometry GeometryType="XYZ">{}</Geometry>
 )",
-             source.time_s(), layout_.global_count(),
+             source.time_s(), source.step(), layout_.global_count(),
              series_.xdmf_integers("/connectivity", 1, Centring::point),
              series_.xdmf_reals(dataset_name(position, place), 3, Centring::point)) +
          series_.xdmf_attributes(place, position) + FieldSeries::xdmf_annotations(source.annotations()) +

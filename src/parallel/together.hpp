@@ -53,16 +53,18 @@ void on_root(const Communicator& comm, const Action& action) {
 /// which says more, goes first.
 template <class Action>
 void together(const Communicator& comm, const Action& action) {
-  std::string input;
-  together<RunError>(comm, [&] {
-    try {
-      action();
-    } catch (const InputError& error) {
-      input = Failure::text(error);
-    }
-  });
+  std::string input, other;
+  try {
+    action();
+  } catch (const InputError& error) {
+    input = Failure::text(error);
+  } catch (const std::exception& error) {
+    other = Failure::text(error);
+  }
   input = comm.first_non_empty(input);
   if (!input.empty()) Failure::raise<InputError>(input);
+  other = comm.first_non_empty(other);
+  if (!other.empty()) Failure::raise<RunError>(other);
 }
 
 }  // namespace rhexis::parallel

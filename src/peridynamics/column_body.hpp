@@ -35,7 +35,7 @@ inline constexpr double frame_tolerance = 4;
 /// Once the body's displacements are this many spacings apart from their middle, they are wrapped.
 inline constexpr double wrap_distance = 512;
 
-/// One block of 16 rows of one owned column: the unit of work.
+/// One block of 16 rows of one owned column.
 struct Unit {
   std::int32_t slot, block;
 };
@@ -134,7 +134,7 @@ class ColumnBody final : public Body {
     make_local_properties();
     make_thin_spots();
     make_bonds();
-    make_units();
+    if constexpr (Law::state_based) make_units();
     make_parts();
     if constexpr (Law::state_based) state_.emplace(comm_, domain_, setup_.energy_scale);
     set_axial_profile(std::vector<double>(static_cast<std::size_t>(domain_.layout().rows), 1.0));
@@ -346,7 +346,7 @@ class ColumnBody final : public Body {
   std::vector<double> load_share_;         ///< [particles] relative to the whole wall's; empty: 1
   std::vector<double> family_volume_;      ///< [particles] sum of V_j / spacing^3, as born
   std::optional<States<Real>> state_;      ///< of state-based laws
-  std::vector<Unit> interior_, boundary_;  ///< units that read no halo, units that do
+  std::vector<Unit> interior_, boundary_;  ///< of state-based laws: units that read no halo, that do
   std::vector<Part<Real>> parts_;          ///< of threads
   std::vector<std::int32_t> opposite_;     ///< of bonds_, see find_opposites
 

@@ -99,7 +99,7 @@ inline unsigned shifted(unsigned bits, int up) {
   return up >= 0 ? bits << up : bits >> -up;
 }
 
-/// Calls `use(word, unit, shift)` for the words, one or two in the part, of the other ends of bond `b` of
+/// Calls `use(word, unit, shift)` for the words in the part, at most two, of the other ends of bond `b` of
 /// rows [row, row + 16) of a column: bit 0 of those rows is bit `shift` of the word, which may be negative.
 template <class Law, class Real>
 template <class Use>

@@ -1,5 +1,5 @@
 /// The inner loop that a state-based law runs before the forces' (bond_kernel.hpp): extensions of each
-/// particle's family. Gathered as forces are; both ends of a bond break it here, in the same step.
+/// particle's family. Each end of a bond evaluates it for itself and breaks it here, in the same step.
 #pragma once
 
 #include "peridynamics/bond_kernel.hpp"

@@ -42,7 +42,7 @@ RiskTally::RiskTally(int generations, std::size_t top)
 
 void RiskTally::enter(const RankedVessel& vessel) {
   if (list_.size() == most_) {
-    if (most_ == 0 || !before(vessel, list_.front())) return;
+    if (!before(vessel, list_.front())) return;
     std::pop_heap(list_.begin(), list_.end(), before);
     list_.pop_back();
   }

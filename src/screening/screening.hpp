@@ -63,7 +63,9 @@ class RiskTally {
   Screening result(parallel::Communicator comm) const;
 
  private:
-  bool enters(double risk) const { return risk > 0 && (list_.size() < most_ || risk >= list_.front().risk); }
+  bool enters(double risk) const {
+    return risk > 0 && most_ > 0 && (list_.size() < most_ || risk >= list_.front().risk);
+  }
   void enter(const RankedVessel& vessel);
 
   std::size_t most_;

@@ -195,6 +195,14 @@ class Cli(unittest.TestCase):
             self.write(text)
             self.assert_refused(self.rhexis("run", "vessel.toml", ranks=3), fragments, name)
 
+    def test_a_rank_without_units_ends_the_run_for_all(self):
+        self.write(GOOD)
+        lacking = ["env", "UDUNITS2_XML_PATH=/none", RHEXIS, "check", "vessel.toml"]
+        result = subprocess.run([*MPIRUN, "-n", "1", RHEXIS, "check", "vessel.toml", ":", "-n", "1", *lacking],
+                                cwd=self.folder.name, capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(result.returncode, 3, result.stderr)
+        self.assertEqual(result.stderr.count("UDUNITS"), 2, result.stderr)  # in one message
+
     def test_wrong_overrides(self):
         self.write(GOOD)
         for override, fragment in (("time.step", "="), ("time.stepp=1 us", "time.step"), ("time.step=fast", "time.step"),
@@ -295,6 +303,26 @@ class Cli(unittest.TestCase):
             self.assertEqual(refused.returncode, 2, refused.stderr)
             self.assertIn(checkpoint, refused.stderr)
             self.assertFalse(os.path.exists(self.path("x")))
+
+    def test_what_breaks_at_the_last_moment_is_told(self):
+        self.write(replaced("end", 'end = "200 us"') + "[material]\ncritical_stretch = 0.1\n")
+        def results(*more):
+            result = self.rhexis("run", "vessel.toml", "-o", "out", *more)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            return self.record("out")["results"]
+        moments = {key: results()[key] for key in ("first_bond_break_s", "rupture_onset_s")}
+        for key, moment in moments.items():
+            ended = results("--set", f"time.end={moment} s")
+            self.assertEqual(ended["simulated_s"], moment)
+            self.assertEqual(ended[key], moment)
+
+    def test_many_spots_fit_into_a_checkpoint(self):
+        spots = "".join(f'[[spot]]\nposition = "1 mm"\nangle = "{0.5 * i} deg"\nradius = "0.2 mm"\nstiffness = 0.99\n'
+                        for i in range(700))
+        self.write(replaced("end", 'end = "20 us"') + spots)
+        for more in (["--set", "output.checkpoint_every=20"], ["--restart", "out/checkpoints/step_000020.h5"]):
+            result = self.rhexis("run", "vessel.toml", "-o", "out", *more)
+            self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_restart_draws_the_same_wall(self):
         import h5py

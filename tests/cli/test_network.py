@@ -139,6 +139,9 @@ class Network(unittest.TestCase):
         for tier in ("explicit", "distributed"):
             result = self.rhexis("run", "n.toml", "--set", "network.query=['9']", "--set", f"network.tier={tier}", ranks=2)
             self.assert_refused(result, ["no vessel '9'"], f"query, {tier}", files)
+        for key, value in (("flow.inlet_pressure", "100 mmHg"), ("tree.generations", "4")):
+            result = self.rhexis("run", "n.toml", "--set", f"{key}={value}")
+            self.assert_refused(result, [key, value, "the files say it"], key, files)
         # More loops than series and parallel vessels make.
         self.write("v.csv", VESSELS + "3,a,c,9\n4,d,b,9\n5,d,c,9\n6,b,e,9\n7,e,c,9\n8,e,f,9\n9,f,b,9\n10,f,c,9\n")
         self.write("j.csv", JUNCTIONS + "d,1,1,1,20\ne,2,2,2,\nf,3,2,2,\n")
@@ -169,6 +172,27 @@ class Network(unittest.TestCase):
                 self.assertEqual((a["name"], a["vessel"], a["kind"]), (b["name"], b["vessel"], b["kind"]))
                 self.assertAlmostEqual(a["flow_m3_s"] / b["flow_m3_s"], 1, delta=1e-10)
                 self.assertAlmostEqual(a["pressure_from_Pa"], b["pressure_from_Pa"], delta=1e-6)
+
+    def test_ranks_without_vessels_and_answers_for_all(self):
+        """More ranks than vessels, without coordinates, too; a query is answered alike whoever has the vessel."""
+        self.write("n.toml", FILES)
+        self.write("j.csv", JUNCTIONS)
+        self.write("v.csv", VESSELS)
+        keys = ["--set", "network.query=['2']", "--set", "weakness.strength_spread=0.2"]
+        queries = []
+        for tier, ranks in (("explicit", None), ("distributed", 1), ("distributed", 2), ("distributed", 3)):
+            self.run_well("n.toml", "-o", "out", *keys, "--set", f"network.tier={tier}", ranks=ranks)
+            queries.append(self.record("out")["results"]["network"]["queries"][0])
+        self.assertNotEqual(queries[0]["strength_factor"], 1)
+        self.assertEqual(queries[0]["end_m"], [0.003, 0.004, 0.012])
+        for other in queries[1:]:
+            for key in ("name", "vessel", "radius_m", "strength_factor", "start_m", "end_m"):
+                self.assertEqual(other[key], queries[0][key], key)
+        self.write("j.csv", "id,pressure [mmHg]\na,10\nb,\nc,0\n")
+        self.write("v.csv", "id,from,to,radius [um],length [mm]\n1,a,b,50,5\n2,b,c,40,12\n")
+        for ranks in (2, 3):
+            self.run_well("n.toml", "-o", "bare", "--set", "network.tier=distributed", ranks=ranks)
+            self.assertEqual(self.record("bare")["results"]["network"]["vessels"], 2)
 
     def test_statistics_count_every_vessel(self):
         self.write("n.toml", TREE)

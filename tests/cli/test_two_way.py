@@ -93,6 +93,15 @@ class TwoWay(CoupledCase):
             self.assertAlmostEqual(first, expected, delta=1e-7)
         self.assertLess(abs(results["energy_drift"]), 1e-3)
 
+    def test_what_leaked_is_told_to_the_end(self):
+        """Also where the last window is not a whole one: the leak of each row holds until the next, the last to the end."""
+        results = self.run_well(TWO_WAY, "odd", "coupling.window=70 us", "output.fields=[]")
+        rows = self.rows("odd/coupling.csv")
+        ends = [row["time_s"] for row in rows[1:]] + [results["simulated_s"]]
+        self.assertGreater(ends[-1], rows[-1]["time_s"])
+        leaked = sum(row["leak_m3_s"] * (end - row["time_s"]) for row, end in zip(rows, ends, strict=True))
+        self.assert_close(results["coupling"]["leaked_m3"], leaked, 1e-12)
+
     def test_finer_windows_converge(self):
         """With the first order where the wall bears its load. Fragments are chaotic: of a torn one, what it leaked settles."""
         # Resistances alike, so that the lumen matters.

@@ -39,6 +39,15 @@ TEST(Directory, IsMadeWithItsParentsAndParts) {
   EXPECT_EQ(std::distance(fs::directory_iterator(directory / "a/b"), {}), 2);
 }
 
+TEST(Directory, SamplesOfAnEnsembleAreNotRemoved) {
+  const TemporaryDirectory directory;
+  make_files(directory.path(), {"samples.csv", "run.json"});
+  EXPECT_NE(refusal(directory.path()).find("samples of an ensemble"), std::string::npos);
+  EXPECT_TRUE(fs::exists(directory / "samples.csv") && fs::exists(directory / "run.json"));
+  EXPECT_FALSE(fs::exists(directory / "images"));
+  prepare_directory(directory.path(), EarlierResults::keep, world);
+}
+
 TEST(Directory, ResultsOfAnEarlierRunGoAndNothingElse) {
   const TemporaryDirectory directory;
   const std::vector<std::string> ours = {"run.json",       "history.csv",

@@ -80,6 +80,12 @@ TEST(Together, OneRanksErrorIsThrownByAll) {
                           if (is_last) throw RunError("full");
                         }),
                RunError);
+  EXPECT_THROW(together(world,
+                        [&] {
+                          if (is_last) throw InputError("wrong");
+                          throw RunError("full");
+                        }),
+               InputError);  // which says more
   EXPECT_NO_THROW(together(world, [] {}));
 }
 
