@@ -37,6 +37,7 @@ class DistributedTier : public NetworkTier {
         take_slice_of_file();
       }
     });
+    mechanics_.numbers = vessel_id_;
   }
 
   NetworkSolution solve(const Say& say) override {

@@ -40,8 +40,10 @@ const network::Wall& wall_of(const VesselMechanics& mechanics, VesselKind kind) 
 network::WallFactors wall_factors(const network::Graph& graph, std::size_t vessel,
                                   const VesselMechanics& mechanics) {
   const VesselKind kind = graph.kind.empty() ? VesselKind::unknown : graph.kind[vessel];
+  const std::uint64_t number =
+      mechanics.numbers.empty() ? vessel : static_cast<std::uint64_t>(mechanics.numbers[vessel]);
   return mechanics.variation.of(kind,
-                                mechanics.numbered_by_id ? network::TreePair::place_of(vessel) : vessel);
+                                mechanics.numbered_by_id ? network::TreePair::place_of(number) : number);
 }
 
 double wall_thickness(const network::Graph& graph, std::size_t vessel, const VesselMechanics& mechanics) {

@@ -247,9 +247,12 @@ class Ensemble(unittest.TestCase):
             self.assertEqual(float(s["first_bond_break_s"]) if s["first_bond_break_s"] else None, alone["first_bond_break_s"])
             if s["onset_s"]:
                 self.assertEqual(float(s["max_displacement_m"]), alone["max_displacement_at_onset_m"])
-        # A vessel's run takes an ensemble's tables away: results of two runs never mix.
-        self.run_well("-o", "out")
-        self.assertFalse((self.path / "out/samples.csv").exists() or (self.path / "out/probability.csv").exists())
+        # Another run does not take the samples away.
+        before = self.text("out/samples.csv")
+        refused = self.rhexis("run", "e.toml", "-o", "out")
+        self.assertEqual(refused.returncode, 2, refused.stderr)
+        self.assertIn("samples of an ensemble", refused.stderr)
+        self.assertEqual(self.text("out/samples.csv"), before)
 
     def test_interrupt_saves_and_the_same_command_goes_on(self):
         command = [RHEXIS, "run", "e.toml", "-o", "out", "--set", "ensemble.samples=400"]

@@ -188,6 +188,14 @@ class Network(unittest.TestCase):
         for other in queries[1:]:
             for key in ("name", "vessel", "radius_m", "strength_factor", "start_m", "end_m"):
                 self.assertEqual(other[key], queries[0][key], key)
+        self.write("n.toml", TREE)
+        strengths = set()
+        for tier, ranks in (("implicit", None), ("explicit", None), ("distributed", 2)):
+            self.run_well("n.toml", "-o", "tree", *keys[2:], "--set", f"network.tier={tier}", ranks=ranks)
+            strengths.add(tuple(q["strength_factor"] for q in self.record("tree")["results"]["network"]["queries"]))
+        self.assertEqual(len(strengths), 1, strengths)
+        self.assertNotIn(1, strengths.pop())
+        self.write("n.toml", FILES)
         self.write("j.csv", "id,pressure [mmHg]\na,10\nb,\nc,0\n")
         self.write("v.csv", "id,from,to,radius [um],length [mm]\n1,a,b,50,5\n2,b,c,40,12\n")
         for ranks in (2, 3):
