@@ -45,6 +45,7 @@ TEST(Directory, SamplesOfAnEnsembleAreNotRemoved) {
   EXPECT_NE(refusal(directory.path()).find("samples of an ensemble"), std::string::npos);
   EXPECT_TRUE(fs::exists(directory / "samples.csv") && fs::exists(directory / "run.json"));
   EXPECT_FALSE(fs::exists(directory / "images"));
+  world.barrier();
   prepare_directory(directory.path(), EarlierResults::keep, world);
 }
 
