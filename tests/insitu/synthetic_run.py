@@ -65,6 +65,7 @@ def write(folder, frames=3, length_m=10e-3):
             )
             grids.append(
                 f'<Grid Name="particles" GridType="Uniform"><Time Value="{2.5e-3 * progress}"/>'
+                f'<Information Name="step" Value="{step}"/>'
                 f'<Topology TopologyType="Polyvertex" NumberOfElements="{len(rest)}">'
                 f'<DataItem Dimensions="{len(rest)}" NumberType="Int" Precision="8" Format="HDF">'
                 f"particles.h5:/connectivity</DataItem></Topology>"
