@@ -22,12 +22,20 @@ namespace fs = std::filesystem;
 /// Whether runs write files of this name into the folder itself. A restart's series is particles_from_<step>.
 bool is_result(std::string name) {
   if (name.ends_with(".part")) name.resize(name.size() - 5);
-  constexpr std::array fixed = {"run.json",       "history.csv", "particles.xdmf",  "particles.h5",
-                                "network.xdmf",   "network.h5",  "network.vtp",     "generations.csv",
-                                "histograms.csv", "vessels.csv", "screening.csv",   "risk_histograms.csv",
-                                "coupling.csv",   "cascade.csv", "probability.csv", "movie.mp4"};
+  constexpr std::array fixed = {"run.json",       "history.csv", "particles.xdmf", "particles.h5",
+                                "network.xdmf",   "network.h5",  "network.vtp",    "generations.csv",
+                                "histograms.csv", "vessels.csv", "screening.csv",  "risk_histograms.csv",
+                                "coupling.csv",   "cascade.csv", "samples.csv",    "probability.csv",
+                                "movie.mp4"};
   return std::find(fixed.begin(), fixed.end(), name) != fixed.end() ||
          (name.starts_with("particles_from_") && (name.ends_with(".h5") || name.ends_with(".xdmf")));
+}
+
+/// Rows below the header of an ensemble's table.
+bool holds_samples(const fs::path& directory) {
+  std::ifstream table(directory / "samples.csv");
+  std::string line;
+  return std::getline(table, line) && std::getline(table, line);
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
@@ -115,7 +123,7 @@ void remove_events(const fs::path& directory) {
 void prepare_directory(const fs::path& directory, EarlierResults earlier,
                        const parallel::Communicator& communicator) {
   parallel::on_root<InputError>(communicator, [&] {
-    if (earlier == EarlierResults::remove && fs::exists(directory / "samples.csv"))
+    if (earlier == EarlierResults::remove && holds_samples(directory))
       refuse(directory,
              "it holds the samples of an ensemble; move samples.csv away, or choose another folder");
     NewDirectories created;

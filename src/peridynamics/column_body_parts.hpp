@@ -70,7 +70,7 @@ void ColumnBody<Law, Real>::find_opposites() {
   }
 }
 
-/// Of a column: its bonds to columns before the part, be there any or not, then those from its own column on.
+/// Of a column: its bonds to columns before the part, be there any or not, then those that lead later.
 template <class Law, class Real>
 void ColumnBody<Law, Real>::add_runs(Part<Real>& part, std::int32_t slot) const {
   const auto first = static_cast<std::int32_t>(global_column(part.first_slot));

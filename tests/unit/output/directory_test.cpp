@@ -41,7 +41,9 @@ TEST(Directory, IsMadeWithItsParentsAndParts) {
 
 TEST(Directory, SamplesOfAnEnsembleAreNotRemoved) {
   const TemporaryDirectory directory;
-  make_files(directory.path(), {"samples.csv", "run.json"});
+  make_files(directory.path(), {"run.json"});
+  if (world.is_root()) std::ofstream(directory / "samples.csv") << "wall\n1\n";
+  world.barrier();
   EXPECT_NE(refusal(directory.path()).find("samples of an ensemble"), std::string::npos);
   EXPECT_TRUE(fs::exists(directory / "samples.csv") && fs::exists(directory / "run.json"));
   EXPECT_FALSE(fs::exists(directory / "images"));
@@ -56,7 +58,8 @@ TEST(Directory, ResultsOfAnEarlierRunGoAndNothingElse) {
                                          "network.h5",     "network.xdmf",
                                          "movie.mp4",      "images/vessel_0001.png",
                                          "run.json.part",  "particles_from_000100.h5",
-                                         "cascade.csv",    "event_02/run.json"};
+                                         "cascade.csv",    "event_02/run.json",
+                                         "samples.csv"};  // one line: a header only
   const std::vector<std::string> others = {
       "notes.txt",         "particles_from_me.txt", "other.h5",        "picture.png",
       "images/notes.txt",  "images/deeper/a.png",   "images/mine.png", "checkpoints/000100.h5",
