@@ -135,9 +135,12 @@ class CoupledCase(unittest.TestCase):
 
     def rhexis(self, *arguments, ranks=None, threads=None, cwd=None):
         launcher = [*MPIRUN, "-n", str(ranks)] if ranks else []
-        environment = {**os.environ, "OMP_NUM_THREADS": str(threads)} if threads else None
-        return subprocess.run([*launcher, RHEXIS, *arguments], cwd=cwd or self.path, capture_output=True, text=True, timeout=300,
-                              stdin=subprocess.DEVNULL, env=environment, check=False)
+        environment = {**os.environ, **({"OMP_NUM_THREADS": str(threads)} if threads else {})}
+        # Launchers that start and end at once make and remove each other's folder of sessions.
+        with tempfile.TemporaryDirectory() as sessions:
+            environment["OMPI_MCA_orte_tmpdir_base"] = sessions
+            return subprocess.run([*launcher, RHEXIS, *arguments], cwd=cwd or self.path, capture_output=True, text=True,
+                                  timeout=300, stdin=subprocess.DEVNULL, env=environment, check=False)
 
     def run_well(self, scene, folder, *overrides, more=(), **launch):
         """Runs `scene` into `folder`; its results without what differs from run to run: times."""

@@ -97,8 +97,11 @@ class Ensemble(unittest.TestCase):
 
     def rhexis(self, *arguments, ranks=None, threads=1, folder=None):
         launcher = [*MPIRUN, "-n", str(ranks)] if ranks else []
-        return subprocess.run([*launcher, RHEXIS, *arguments], cwd=folder or self.path, capture_output=True, text=True, timeout=300,
-                              stdin=subprocess.DEVNULL, check=False, env={**os.environ, "OMP_NUM_THREADS": str(threads)})
+        # Programs that start and end at once make and remove each other's folder of MPI's sessions.
+        with tempfile.TemporaryDirectory() as sessions:
+            environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "OMPI_MCA_orte_tmpdir_base": sessions}
+            return subprocess.run([*launcher, RHEXIS, *arguments], cwd=folder or self.path, capture_output=True, text=True,
+                                  timeout=300, stdin=subprocess.DEVNULL, check=False, env=environment)
 
     def run_well(self, *arguments, **how):
         result = self.rhexis("run", "e.toml", *arguments, **how)
