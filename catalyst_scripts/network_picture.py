@@ -193,7 +193,7 @@ class NetworkPicture:
         inflow = field_value(network, "inflow")
         if inflow is not None:
             unit, name = flow_unit(abs(inflow))
-            title += f"      inflow {float(f'{inflow / unit:.3g}'):g} {name}"
+            title += f"      inflow{' (wall intact)' if self.coupled else ''} {float(f'{inflow / unit:.3g}'):g} {name}"
         if time_s > 0 and not self.coupled:
             title += f"      t = {time_s:.4g} s" if time_s >= 1 else f"      t = {1e3 * time_s:.4g} ms"
         self.sheet.text(0.5 * WIDTH, HEIGHT - 32, title, LARGE, align="centre")

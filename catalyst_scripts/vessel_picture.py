@@ -96,7 +96,10 @@ class VesselPicture:
         there = ~numpy.isnan(damage)  # where a thin spot leaves no particle, its damage is not a number
         position, damage = column(particles, "position")[there], damage[there]
         displacement_mm = 1e3 * numpy.sqrt((column(particles, "displacement")[there] ** 2).sum(axis=1))
-        top = self._displacement_range(displacement_mm)
+        largest_mm, most_damage = reduce_over_ranks(
+            [displacement_mm.max(initial=0.0), damage.max(initial=0.0)], vtkCommunicator.MAX_OP
+        )
+        top = self._displacement_range(largest_mm)
         seen = self._seen(position)
         table = numpy.column_stack([position[seen], displacement_mm[seen], damage[seen]]).astype(numpy.float32)
         table = gather(table)
@@ -108,6 +111,8 @@ class VesselPicture:
         self.moment.SetInput(f"t = {time_s * 1e3:.3f} ms{pressure}{note}")
         self.step.SetInput(f"step {step}")
         self._set_displacement_range(top)
+        self.displacement_legend.SetDrawAboveRangeSwatch(largest_mm > top)
+        self.damage_legend.SetDrawAboveRangeSwatch(most_damage > DAMAGE_RANGE)
         self._set_particles(table)
         self.window.Render()
         pixels = vtkUnsignedCharArray()
@@ -139,12 +144,11 @@ class VesselPicture:
         hidden_behind = extreme_of_neighbours(hidden_behind, touches, numpy.minimum)
         return inside[depth + radius > hidden_behind[rows, columns]]
 
-    def _displacement_range(self, displacement_mm):
+    def _displacement_range(self, largest_mm):
         """Zero to the largest displacement so far, rounded up (1, 2, 5, 10 ...), so that few frames of a
         movie change it; at most the vessel's radius, lest flying fragments hide the rest."""
-        largest = reduce_over_ranks([displacement_mm.max(initial=0.0)], vtkCommunicator.MAX_OP)[0]
         radius_mm = 1e3 * self.radius
-        self.largest_mm = max(self.largest_mm, largest, 0.01 * radius_mm)
+        self.largest_mm = max(self.largest_mm, largest_mm, 0.01 * radius_mm)
         return min(round_up(self.largest_mm), round_up(radius_mm))
 
     def _choose_camera(self):
@@ -186,7 +190,8 @@ class VesselPicture:
         self.displacement_bodies = self._body(first, self.displacement_colours)
         self.damage_bodies = self._body(second, damage_colours)
         self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", first)
-        set_labels(self._legend(damage_colours, "Damage (fraction)", second), DAMAGE_RANGE)
+        self.damage_legend = self._legend(damage_colours, "Damage (fraction)", second)
+        set_labels(self.damage_legend, DAMAGE_RANGE)
         self.moment = text(first, 22, (0.01, 0.99))
         self.step = text(second, 22, (0.99, 0.99))
         self.step.GetTextProperty().SetJustificationToRight()
@@ -248,8 +253,13 @@ class VesselPicture:
     def _legend(self, colours, title, view):
         bar = vtkScalarBarActor()
         bar.SetLookupTable(colours)
+        colours.SetAboveRangeColor(*colours.GetTableValue(colours.GetNumberOfTableValues() - 1))
+        colours.UseAboveRangeColorOn()
+        bar.SetAboveRangeAnnotation("more")
         bar.UnconstrainedFontSizeOn()
-        plain(bar.GetLabelTextProperty(), 18)
+        for style in (bar.GetLabelTextProperty(), bar.GetAnnotationTextProperty()):
+            plain(style, 18)
+        on_white(bar.GetAnnotationTextProperty())
         bar.DrawBackgroundOn()  # on top of fragments
         bar.GetBackgroundProperty().SetColor(1.0, 1.0, 1.0)
         bar.GetBackgroundProperty().SetOpacity(0.8)
@@ -298,14 +308,19 @@ def set_labels(bar, top):
     bar.UseCustomLabelsOn()
 
 
+def on_white(style):
+    """So that text can be read on top of fragments."""
+    style.SetBackgroundColor(1.0, 1.0, 1.0)
+    style.SetBackgroundOpacity(0.8)
+
+
 def text(view, size, position, line=""):
     """A line of text at a position (0 ... 1) in a view."""
     actor = vtkTextActor()
     actor.SetInput(line)
     style = actor.GetTextProperty()
     plain(style, size)
-    style.SetBackgroundColor(1.0, 1.0, 1.0)  # on top of fragments
-    style.SetBackgroundOpacity(0.8)
+    on_white(style)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     actor.SetPosition(*position)
     view.AddActor2D(actor)
