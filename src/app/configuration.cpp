@@ -356,6 +356,7 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
   parallel::together(comm, [&] {  // a rank may lack the database of units
     const input::Document document = input::parse_document(text, file, overrides);
     c.resolved = input::read(document, declare_model(c, document));
+    c.warnings = c.resolved.warnings;
   });
   try {
     if (c.model == "vessel") {

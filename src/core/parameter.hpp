@@ -37,6 +37,12 @@ using ParameterTarget =
     std::variant<double*, std::optional<double>*, std::int64_t*, std::optional<std::int64_t>*, bool*,
                  std::string*, std::vector<std::string>*, std::vector<double>*, std::vector<CurvePoint>*>;
 
+/// Another key, and the values of it that are meant, as a user would write them in TOML.
+struct Condition {
+  std::string key = {};
+  std::vector<std::string> values = {};
+};
+
 struct Parameter {
   std::string key;         ///< "section.name", e.g. "vessel.inner_radius"
   ParameterTarget target;  ///< typed home of the value, in SI units
@@ -50,8 +56,14 @@ struct Parameter {
   /// Of a section that may stand any number of times, [[section]]: `target` is a vector<double>* that gets
   /// one number from each.
   bool repeated = false;
+  Condition only_with = {};  ///< the key has no effect elsewhere; without a key: it always has
 };
 
 using ParameterList = std::vector<Parameter>;
+
+inline Parameter only_with(Condition condition, Parameter parameter) {
+  parameter.only_with = std::move(condition);
+  return parameter;
+}
 
 }  // namespace rhexis

@@ -20,10 +20,12 @@ ParameterList declare(Parameters& p) {
        "Sec. 3.3",
        {},
        {"one_way", "two_way"}},
-      {"coupling.window", &p.window, "s", "\"auto\"",
-       "Time between exchanges with the network where mode is two_way; \"auto\" is a two-hundredth of "
-       "time.end.",
-       "", Range::positive()},
+      only_with(
+          {"coupling.mode", {"\"two_way\""}},
+          {"coupling.window", &p.window, "s", "\"auto\"",
+           "Time between exchanges with the network where mode is two_way; \"auto\" is a two-hundredth of "
+           "time.end.",
+           "", Range::positive()}),
       {"coupling.resolution",
        &p.resolution,
        "",

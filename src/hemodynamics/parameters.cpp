@@ -16,28 +16,35 @@ ParameterList declare(Parameters& p) {
        "Eq. (9)",
        {},
        {"constant", "in_vitro", "in_vivo"}},
-      {"blood.viscosity", &p.viscosity.constant, "Pa s", "\"3.5 mPa s\"",
-       "Viscosity of the law \"constant\".", "Eq. (9)", Range::positive()},
-      {"blood.plasma_viscosity", &p.viscosity.plasma, "Pa s", "\"1.0466 mPa s\"",
-       "Viscosity of plasma, of the laws that depend on the diameter.", "", Range::positive()},
+      only_with({"blood.viscosity_law", {"\"constant\""}},
+                {"blood.viscosity", &p.viscosity.constant, "Pa s", "\"3.5 mPa s\"",
+                 "Viscosity of the law \"constant\".", "Eq. (9)", Range::positive()}),
+      only_with({"blood.viscosity_law", {"\"in_vitro\"", "\"in_vivo\""}},
+                {"blood.plasma_viscosity", &p.viscosity.plasma, "Pa s", "\"1.0466 mPa s\"",
+                 "Viscosity of plasma, of the laws that depend on the diameter.", "", Range::positive()}),
       {"blood.haematocrit", &p.viscosity.haematocrit, "1", "0.45",
        "Discharge haematocrit: share of red cells in the blood that enters.", "",
        Range::between(0.001, 0.95)},
-      {"blood.least_diameter", &p.viscosity.least_diameter, "m", "\"2 um\"",
-       "A vessel narrower than this has the viscosity of this diameter: the laws were not measured below 3 "
-       "um, and the "
-       "one in vivo is infinite at 1.1 um.",
-       "", Range{.lower = 1.15e-6, .upper = 1e-5}},
+      only_with({"blood.viscosity_law", {"\"in_vitro\"", "\"in_vivo\""}},
+                {"blood.least_diameter", &p.viscosity.least_diameter, "m", "\"2 um\"",
+                 "A vessel narrower than this has the viscosity of this diameter: the laws were not measured "
+                 "below 3 "
+                 "um, and the "
+                 "one in vivo is infinite at 1.1 um.",
+                 "", Range{.lower = 1.15e-6, .upper = 1e-5}}),
       {"blood.density", &p.density, "kg/m3", "\"1060 kg/m3\"", "Of blood, for the pressure of its weight.",
        "Eq. (7)", Range::positive()},
       {"blood.phase_separation", &p.phase_separation, "", "false",
        "Explicit networks: red cells divide unevenly at bifurcations, so that every vessel has its own "
        "haematocrit.",
        "Pries & Secomb 2008"},
-      {"blood.phase_tolerance", &p.phase_tolerance, "1", "1e-8",
-       "Stop when no vessel's haematocrit changes more in an iteration.", "", Range::between(1e-14, 0.1)},
-      {"blood.phase_iterations", &p.phase_iterations, "1", "200", "The most iterations.", "",
-       Range::at_least(1)},
+      only_with({"blood.phase_separation", {"true"}},
+                {"blood.phase_tolerance", &p.phase_tolerance, "1", "1e-8",
+                 "Stop when no vessel's haematocrit changes more in an iteration.", "",
+                 Range::between(1e-14, 0.1)}),
+      only_with({"blood.phase_separation", {"true"}},
+                {"blood.phase_iterations", &p.phase_iterations, "1", "200", "The most iterations.", "",
+                 Range::at_least(1)}),
 
       {"flow.inlet_pressure", &p.inlet_pressure, "Pa", "\"auto\"",
        "Pressure where blood enters a tree, relative to atmosphere. Of it, outlet_pressure and inlet_flow "

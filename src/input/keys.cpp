@@ -52,11 +52,14 @@ std::string describe_key(const Parameter& declared, const Columns& columns) {
   const Parameter parameter = as_one(declared);
   const std::size_t second = margin + columns.name + 2;
   const std::size_t third = second + columns.type + 2;
+  const Condition& with = parameter.only_with;
+  const std::string only =
+      with.key.empty() ? "" : fmt::format(" Only with {} = {}.", with.key, fmt::join(with.values, " or "));
   const std::string source = parameter.source.empty() ? "" : fmt::format(" ({})", parameter.source);
   return fmt::format("{:{}}{:{}}  {:{}}  {}\n{:{}}{}\n", "", margin, name_of(parameter.key), columns.name,
                      describe_type(parameter), columns.type,
                      wrapped(default_and_allowed(parameter), width, third), "", second,
-                     wrapped(parameter.meaning + source, width, second));
+                     wrapped(parameter.meaning + only + source, width, second));
 }
 
 }  // namespace

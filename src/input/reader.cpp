@@ -110,6 +110,18 @@ ParameterList with_tables(const Document& document, const ParameterList& declare
   return parameters;
 }
 
+/// Of a key that was given although another, as resolved, leaves it without effect; else empty.
+std::string warning_of(const Parameter& parameter, const ResolvedValue& value, const Resolved& resolved) {
+  const Condition& condition = parameter.only_with;
+  if (condition.key.empty() || value.origin == "default") return {};
+  const auto other = std::ranges::find(resolved.values, condition.key, &ResolvedValue::key);
+  if (other == resolved.values.end()) return {};
+  const std::string is = written(other->given);
+  if (std::ranges::find(condition.values, is) != condition.values.end()) return {};
+  return fmt::format("{}: has no effect where {} = {}, only with {}", value.place, condition.key,
+                     shortened(is), fmt::join(condition.values, " or "));
+}
+
 struct ToJson {
   nlohmann::ordered_json operator()(std::monostate) const { return nullptr; }
   nlohmann::ordered_json operator()(const List& list) const {
@@ -132,11 +144,15 @@ Resolved read(const Document& document, const ParameterList& declared) {
     given.push_back(
         resolve(*parameter, entry.value, entry.from_file() ? "file" : "--set", document.place(entry)));
   }
-  Resolved resolved{.file = document.file, .values = {}};
+  Resolved resolved{.file = document.file, .values = {}, .warnings = {}};
   for (const Parameter& parameter : parameters) {
     const auto found = std::ranges::find(given, parameter.key, &ResolvedValue::key);
     resolved.values.push_back(found != given.end() ? std::move(*found)
                                                    : resolve_default(document, parameter));
+  }
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const std::string warning = warning_of(parameters[i], resolved.values[i], resolved);
+    if (!warning.empty()) resolved.warnings.push_back(warning);
   }
   return resolved;
 }

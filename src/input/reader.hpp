@@ -36,6 +36,7 @@ struct ResolvedValue {
 struct Resolved {
   std::string file;
   std::vector<ResolvedValue> values;
+  std::vector<std::string> warnings;  ///< of keys that were given and have no effect
 };
 
 /// Fills the target of every parameter from the document, or from its default. Repeated ones are resolved

@@ -21,8 +21,10 @@ ParameterList declare(WallParameters& p) {
        "Boileau et al. 2015",
        {},
        rules},
-      {"wall.artery_ratio", &p.artery_ratio, "1", "0.3333333333333333",
-       "Wall thickness over lumen radius of arteries, for the rule \"ratio\".", "Table 2", Range::positive()},
+      only_with({"wall.artery_rule", {"\"ratio\""}},
+                {"wall.artery_ratio", &p.artery_ratio, "1", "0.3333333333333333",
+                 "Wall thickness over lumen radius of arteries, for the rule \"ratio\".", "Table 2",
+                 Range::positive()}),
       {"wall.vein_rule",
        &p.vein_rule,
        "",
@@ -31,8 +33,9 @@ ParameterList declare(WallParameters& p) {
        "Boileau et al. 2015",
        {},
        rules},
-      {"wall.vein_ratio", &p.vein_ratio, "1", "0.1", "The same of veins, for the rule \"ratio\".",
-       "Burton 1954 (vena cava: 1.5 mm at 30 mm)", Range::positive()},
+      only_with({"wall.vein_rule", {"\"ratio\""}},
+                {"wall.vein_ratio", &p.vein_ratio, "1", "0.1", "The same of veins, for the rule \"ratio\".",
+                 "Burton 1954 (vena cava: 1.5 mm at 30 mm)", Range::positive()}),
       {"wall.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"",
        "Young's modulus of walls, for hoop strains.", "Table 2", Range::positive()},
       {"wall.poisson_ratio", &p.poisson_ratio, "1", "0.25", "Poisson's ratio of walls.", "Eq. (4)",
@@ -59,8 +62,10 @@ ParameterList declare(Parameters& p) {
        "from the "
        "working folder, then from the input file's folder.",
        ""},
-      {"network.file_length_unit", &p.file_length_unit, "", "\"m\"",
-       "Unit of coordinates, radii and lengths in a VTP file, which cannot tell, e.g. \"mm\".", ""},
+      only_with(
+          {"network.source", {"\"file\""}},
+          {"network.file_length_unit", &p.file_length_unit, "", "\"m\"",
+           "Unit of coordinates, radii and lengths in a VTP file, which cannot tell, e.g. \"mm\".", ""}),
       {"network.tier",
        &p.tier,
        "",
@@ -100,11 +105,13 @@ ParameterList declare(Parameters& p) {
        "", Range::between(1, 5e6)},
       {"network.vtp", &p.vtp, "", "false",
        "Store the vessels as network.vtp too (VTK PolyData, metres; not with the distributed tier).", ""},
-      {"network.shown_subtree", &p.shown_subtree, "", "\"artery.\"",
-       "Place in the tree from which on vessels are stored and drawn, e.g. the path of a vessel a few "
-       "generations "
-       "above the capillaries.",
-       ""},
+      only_with(
+          {"network.source", {"\"tree\""}},
+          {"network.shown_subtree", &p.shown_subtree, "", "\"artery.\"",
+           "Place in the tree from which on vessels are stored and drawn, e.g. the path of a vessel a few "
+           "generations "
+           "above the capillaries.",
+           ""}),
   };
   for (const ParameterList& part : {declare(p.tree), declare(p.wall), declare(p.weakness)})
     all.insert(all.end(), part.begin(), part.end());

@@ -39,8 +39,8 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields) {
        "Steps between checkpoints for --restart; 0: only when a run is interrupted.", "",
        Range::not_negative()},
       {"output.movie", &p.movie, "", "true", "Make movie.mp4 of the pictures at the end (needs ffmpeg).", ""},
-      {"output.frames_per_second", &p.frames_per_second, "1", "12", "Of the movie.", "",
-       Range::between(1, 120)},
+      only_with({"output.movie", {"true"}}, {"output.frames_per_second", &p.frames_per_second, "1", "12",
+                                             "Of the movie.", "", Range::between(1, 120)}),
   };
 }
 

@@ -44,6 +44,13 @@ TEST(Keys, SayWhatIsRequiredAndWhereItIsFrom) {
   EXPECT_NE(text.find("Inner radius before loading. (Table 1)\n"), std::string::npos) << text;
 }
 
+TEST(Keys, SayWhereTheyHaveNoEffect) {
+  Sample sample;
+  const std::string text = describe_keys(sample.parameters(), "load");
+  EXPECT_NE(text.find("Pressure over time. Only with load.schedule = \"table\".\n"), std::string::npos)
+      << text;
+}
+
 TEST(Keys, EverySectionAndKeyIsThereInOrder) {
   Sample sample;
   const std::string text = describe_keys(sample.parameters());

@@ -86,6 +86,20 @@ TEST(Reader, OverridesReplaceAndAdd) {
   EXPECT_EQ(sample.outer_radius, 3e-3);
 }
 
+TEST(Reader, WarnsOfKeysWithoutEffect) {
+  Sample sample;
+  const Resolved resolved = read_text_into(sample, everything, {"load.schedule=ramp"});
+  EXPECT_EQ(resolved.warnings,
+            (std::vector<std::string>{
+                R"(a.toml:16: load.table = [["0 ms", "0 kPa"], ["1 ms", "100 kPa"]]: has no effect where )"
+                R"(load.schedule = "ramp", only with "table")",
+                R"(a.toml:24: output.probes = ["0 mm", "15 mm"]: has no effect where insitu.movie = false, )"
+                R"(only with true)"}));
+  // Defaults are nobody's mistake.
+  EXPECT_TRUE(read_text_into(sample, "[vessel]\ninner_radius = \"1 mm\"\n").warnings.empty());
+  EXPECT_TRUE(read_text_into(sample, everything, {"insitu.movie=true"}).warnings.empty());
+}
+
 TEST(Reader, OneEndOfARangeMayBeReached) {
   Sample sample;
   read_text_into(sample, everything, {"vessel.length=1 m", "load.pressure=0 Pa", "output.every_steps=1"});
