@@ -20,6 +20,7 @@ namespace rhexis::app {
 
 Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   Command command;
+  command.arguments.assign(argv, argv + argc);
   CLI::App cli{"Rhexis: rupture of blood vessels by peridynamics, seen while it runs."};
   cli.set_version_flag(
       "--version", [] { return build_description(); }, "What this program is and was built with");
@@ -71,6 +72,7 @@ int carry_out(const Command& command, parallel::Communicator comm) {
                           : std::filesystem::path(command.directory);
   options.restart = command.restart;
   options.quiet = command.quiet;
+  options.command = command.arguments;
   options.started = started;
   const auto run = [&] {
     if (configuration.model == "network") return NetworkRun(std::move(configuration), options, comm).run();

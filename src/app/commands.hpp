@@ -18,7 +18,8 @@ struct Command {
   std::string restart;                 ///< checkpoint
   std::string section;                 ///< of `keys`
   bool quiet = false;
-  int status = 0;  ///< exit status where there is nothing to do (help, a wrong call)
+  std::vector<std::string> arguments;  ///< all, the program's name first
+  int status = 0;                      ///< exit status where there is nothing to do (help, a wrong call)
 };
 
 /// Prints help, version or what is wrong with the call (on the root rank), then leaves nothing to do.

@@ -57,6 +57,11 @@ class DistributedTier : public NetworkTier {
     s.max_imbalance = flow.max_imbalance;
     s.solver = fmt::format("distributed, {}", hemodynamics::name_of(flow.solver));
     if (flow.iterations > 0) s.iterations = flow.iterations;
+    s.highest_reynolds =
+        comm_.all_reduce(highest_reynolds_number(part_.local, flow, mechanics_, {}), parallel::Reduce::max);
+    const auto [low, high] = extremes_of(flow.pressure);
+    check_flow(s,
+               {comm_.all_reduce(low, parallel::Reduce::min), comm_.all_reduce(high, parallel::Reduce::max)});
     add_weight(part_.local, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
     for (std::size_t i = 0; i < queried_.size(); ++i) {

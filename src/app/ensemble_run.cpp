@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "ensemble/sample_table.hpp"
+#include "input/difference.hpp"
 #include "output/atomic_file.hpp"
 #include "parallel/together.hpp"
 
@@ -35,27 +36,6 @@ bool only_chooses_samples(const std::string& key) {
                                "ensemble.pressure_count",
                                "ensemble.samples"};
   return std::find(free.begin(), free.end(), key) != free.end();
-}
-
-/// The first key in which the inputs of two ensembles differ, with both values; empty where samples of one
-/// are samples of the other.
-std::string difference(const Json& earlier, const Json& now) {
-  for (const auto& [section, keys] : now.items()) {
-    for (const auto& [name, entry] : keys.items()) {
-      const std::string key = section + "." + name;
-      if (only_chooses_samples(key)) continue;
-      const Json::json_pointer place("/" + section + "/" + name);
-      const Json was =
-          earlier.contains(place) ? earlier[place] : Json{{"value", nullptr}, {"written", "none"}};
-      if (was.value("value", Json()) != entry["value"])
-        return fmt::format("{} was {}, and now is {}", key, was.value("written", Json()).dump(),
-                           entry["written"].dump());
-    }
-  }
-  for (const auto& [section, keys] : earlier.items()) {
-    if (!now.contains(section)) return section + " was given, and now is not";
-  }
-  return {};
 }
 
 std::string whole_file(const std::filesystem::path& path) {
@@ -123,10 +103,13 @@ void EnsembleRun::read_earlier() {
     text = whole_file(path);
     if (ensemble::read_samples(text, path.string()).empty()) return;
     const Json earlier = Json::parse(whole_file(record), nullptr, false);
-    const std::string differs = earlier.is_object() && earlier.contains("input")
-                                    ? difference(earlier["input"], c_.record)
-                                    : record.string() + " does not tell of which";
-    if (differs.empty()) return;
+    std::string differs = record.string() + " does not tell of which";
+    if (earlier.is_object() && earlier.contains("input")) {
+      const auto differences = input::differences(
+          earlier["input"], c_.record, [](const std::string& key) { return !only_chooses_samples(key); });
+      if (differences.empty()) return;
+      differs = differences.front().text;
+    }
     throw InputError(fmt::format(
         "{} holds samples of another ensemble ({}); choose another folder with -o, or remove that file",
         path.string(), differs));

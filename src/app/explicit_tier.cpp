@@ -29,7 +29,15 @@ class ExplicitTier : public NetworkTier {
   ExplicitTier(const Configuration& c, parallel::Communicator comm)
       : c_(c), comm_(comm), mechanics_(mechanics_of(c)) {}
 
-  std::string description() const override { return describe_source(c_); }
+  std::string description() const override {
+    std::string text = describe_source(c_);
+    if (c_.network.source == "file" && comm_.is_root()) {
+      text +=
+          fmt::format(": {} vessels, {} junctions", grouped(static_cast<long long>(network_.graph.vessels())),
+                      grouped(static_cast<long long>(network_.graph.junctions)));
+    }
+    return text;
+  }
 
   void prepare() override {
     parallel::on_root<InputError>(comm_, [&] {
@@ -94,6 +102,8 @@ class ExplicitTier : public NetworkTier {
     s.max_imbalance = flow.max_imbalance;
     s.solver = hemodynamics::name_of(flow.solver);
     if (flow.iterations > 0) s.iterations = flow.iterations;
+    s.highest_reynolds = highest_reynolds_number(graph, flow, mechanics_, haematocrit_);
+    check_flow(s, extremes_of(flow.pressure));
     add_weight(network_.graph, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
     for (std::size_t i = 0; i < queried_.size(); ++i) {

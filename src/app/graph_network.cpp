@@ -86,6 +86,19 @@ std::array<double, 2> lumen_of(const Graph& g) {
   return {volume, surface};
 }
 
+double highest_reynolds_number(const Graph& g, const hemodynamics::GraphFlow& flow,
+                               const hemodynamics::VesselMechanics& mechanics,
+                               std::span<const double> haematocrit) {
+  double highest = 0;
+  for (std::size_t v = 0; v < g.vessels(); ++v) {
+    const double h = haematocrit.empty() ? mechanics.viscosity.haematocrit : haematocrit[v];
+    const double eta = hemodynamics::apparent_viscosity(mechanics.viscosity, g.radius[v], h);
+    highest = std::max(highest, hemodynamics::reynolds_number(g.radius[v], eta, flow.flow[v],
+                                                              mechanics.hydrostatic.density));
+  }
+  return highest;
+}
+
 std::array<double, 2> extremes_of(const std::vector<double>& pressure) {
   std::array<double, 2> extremes{std::numeric_limits<double>::infinity(),
                                  -std::numeric_limits<double>::infinity()};

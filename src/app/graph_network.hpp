@@ -49,6 +49,11 @@ std::vector<std::uint32_t> widest_vessels(const network::Graph& graph, std::size
 /// Volume (m3) and wall surface (m2) of all lumens.
 std::array<double, 2> lumen_of(const network::Graph& graph);
 
+/// Of the fastest vessel; `haematocrit` as for conductances.
+double highest_reynolds_number(const network::Graph& graph, const hemodynamics::GraphFlow& flow,
+                               const hemodynamics::VesselMechanics& mechanics,
+                               std::span<const double> haematocrit);
+
 /// The lowest and the highest of pressures that are not nan.
 std::array<double, 2> extremes_of(const std::vector<double>& pressure);
 

@@ -8,7 +8,9 @@
 #include "app/network_tier.hpp"
 #include "app/stopwatch.hpp"
 #include "core/format.hpp"
+#include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/tree_flow.hpp"
+#include "hemodynamics/viscosity.hpp"
 #include "network/tree_selection.hpp"
 
 namespace rhexis::app {
@@ -59,6 +61,12 @@ class ImplicitTier : public NetworkTier {
     s.inflow = flow->flow();
     s.highest_pressure = std::max(flow->inlet_pressure(), flow->outlet_pressure());
     s.lowest_pressure = std::min(flow->inlet_pressure(), flow->outlet_pressure());
+    const double radius = tree_.vessel(0).radius;
+    s.highest_reynolds = hemodynamics::reynolds_number(
+        radius,
+        hemodynamics::apparent_viscosity(mechanics_.viscosity, radius, mechanics_.viscosity.haematocrit),
+        s.inflow, mechanics_.hydrostatic.density);
+    check_flow(s, {s.lowest_pressure, s.highest_pressure});
     const bool sweeps = c_.network.statistics || c_.screening.top > 0;
     // Where every vessel of a generation is alike one of them is computed: next to nothing.
     if (!c_.tree.repeats()) {
@@ -180,6 +188,18 @@ class ImplicitTier : public NetworkTier {
 };
 
 }  // namespace
+
+void check_flow(NetworkSolution& s, const std::array<double, 2>& driving) {
+  const auto [low, high] = driving;
+  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
+    s.warnings.push_back("nothing flows: the pressures that are given are all the same");
+  if (s.highest_reynolds > hemodynamics::laminar_reynolds_number) {
+    s.warnings.push_back(
+        fmt::format("the Reynolds number reaches {:.0f}; above {:.0f} flow is not laminar, and real "
+                    "resistances are higher than those of Eq. (9)",
+                    s.highest_reynolds, hemodynamics::laminar_reynolds_number));
+  }
+}
 
 std::unique_ptr<NetworkTier> make_implicit_tier(const Configuration& c, parallel::Communicator comm) {
   return std::make_unique<ImplicitTier>(c, comm);

@@ -30,6 +30,7 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
     tier_ = prepared_tier(c_, comm_);
     console.item("network", tier_->description());
     solution_ = tier_->solve([&](const std::string& text) { console.line(text); });
+    c_.warnings.insert(c_.warnings.end(), solution_.warnings.begin(), solution_.warnings.end());
   }
   const Stopwatch watch(exchange_s_);
   choose();

@@ -114,6 +114,7 @@ output::NetworkResults network_results(const NetworkSolution& solution) {
   n.max_imbalance = solution.max_imbalance;
   n.volume_m3 = solution.volume;
   n.surface_m2 = solution.surface;
+  n.highest_reynolds = solution.highest_reynolds;
   n.highest_pressure_Pa = solution.highest_pressure;
   n.lowest_pressure_Pa = solution.lowest_pressure;
   n.solver = solution.solver;

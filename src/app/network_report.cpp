@@ -37,7 +37,6 @@ void NetworkRun::say_header() {
 void NetworkRun::say_summary() {
   const NetworkSolution& s = solution_;
   console_.line("Done.");
-  for (const std::string& warning : s.warnings) console_.warning(warning);
   if (s.statistics) {
     console_.line(
         "  generation     vessels  mean radius  flow each       arteries      veins     hoop stress");
@@ -53,7 +52,8 @@ void NetworkRun::say_summary() {
     }
   }
   console_.item("network", fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));
-  console_.item("inflow", flow_text(s.inflow));
+  console_.item("inflow",
+                fmt::format("{}; Reynolds numbers up to {:.3g}", flow_text(s.inflow), s.highest_reynolds));
   console_.item("pressure", fmt::format("from {} to {}", mmhg(s.highest_pressure), mmhg(s.lowest_pressure)));
   if (s.volume) {
     console_.item("blood", fmt::format("{:.4g} mL in all vessels, wall surface {:.4g} m2", *s.volume * 1e6,

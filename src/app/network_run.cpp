@@ -35,6 +35,7 @@ Ending NetworkRun::run() {
 void NetworkRun::solve() {
   const Stopwatch watch(spent_.solve);
   solution_ = tier_->solve([&](const std::string& text) { console_.line(text); });
+  for (const std::string& warning : solution_.warnings) warn(warning);
   results_.network = network_results(solution_);
 }
 

@@ -45,6 +45,7 @@ struct NetworkSolution {
   std::optional<double> max_imbalance;               ///< relative to the inflow
   std::optional<double> volume, surface;             ///< m3, m2
   double highest_pressure = 0, lowest_pressure = 0;  ///< Pa, of all junctions
+  double highest_reynolds = 0;                       ///< number, of all vessels (a tree's: of the widest)
   std::string solver;
   std::optional<std::int64_t> iterations, haematocrit_iterations;
   std::optional<double> flop;  ///< operations, where they are counted
@@ -87,6 +88,10 @@ std::unique_ptr<NetworkTier> make_explicit_tier(const Configuration& c, parallel
 std::unique_ptr<NetworkTier> make_distributed_tier(const Configuration& c, parallel::Communicator comm);
 /// By network.tier, and prepared: throws InputError, complete with place. Collective.
 std::unique_ptr<NetworkTier> prepared_tier(const Configuration& c, parallel::Communicator comm);
+
+/// Warns where Eq. (9) does not hold, and where nothing flows: `driving`, Pa, are the pressures' lowest and
+/// highest without the weight of blood.
+void check_flow(NetworkSolution& s, const std::array<double, 2>& driving);
 
 /// Walls of a tree are marked; of a file, the reader does that.
 hemodynamics::VesselMechanics mechanics_of(const Configuration& c);

@@ -1,6 +1,9 @@
 #include "app/run_base.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+
+#include <ctime>
 
 #include "app/movie.hpp"
 #include "app/stopwatch.hpp"
@@ -23,8 +26,22 @@ void RunBase::open_directory(output::EarlierResults earlier) {
   output::prepare_directory(options_.directory, earlier, comm_);
 }
 
-void RunBase::open_record() {
-  record_.emplace(options_.directory / "run.json", version(), commit(), c_.record, comm_);
+void RunBase::open_record(std::optional<std::int64_t> first_step) {
+  output::Provenance provenance{
+      .version = version(),
+      .commit = commit(),
+      .command = options_.command,
+      .file = c_.file,
+      .started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
+      .first_step = first_step,
+      .input = c_.record};
+  if (first_step) provenance.checkpoint = options_.restart.string();
+  record_.emplace(options_.directory / "run.json", provenance, comm_);
+}
+
+void RunBase::warn(const std::string& text) {
+  console_.warning(text);
+  if (record_) record_->warn(text);
 }
 
 Ending RunBase::recorded(const std::function<bool()>& work) {
@@ -53,7 +70,7 @@ void RunBase::note_failure(const std::string& reason) {
   try {
     record_->fail(reason, results_, performance());
   } catch (const RunError& also) {
-    console_.warning(also.what());
+    warn(also.what());
   }
 }
 
@@ -78,7 +95,7 @@ void RunBase::make_movie() {
     problem = app::make_movie(options_.directory / "images", options_.directory / "movie.mp4",
                               c_.output.frames_per_second);
   }
-  if (!problem.empty()) console_.warning("no movie: " + problem);
+  if (!problem.empty()) warn("no movie: " + problem);
 }
 
 output::Performance RunBase::performance() {
@@ -130,7 +147,7 @@ void RunBase::say_input() {
 }
 
 void RunBase::say_warnings() {
-  for (const std::string& warning : c_.warnings) console_.warning(warning);
+  for (const std::string& warning : c_.warnings) warn(warning);
 }
 
 void RunBase::say_surroundings() {

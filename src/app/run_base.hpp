@@ -38,7 +38,8 @@ class RunBase {
 
   /// Makes the folder of results ready; `open_record` begins run.json in it.
   void open_directory(output::EarlierResults earlier);
-  void open_record();
+  /// `first_step` is that of options_.restart.
+  void open_record(std::optional<std::int64_t> first_step = {});
   /// Does `work`, which returns whether an interrupt ended it, and tells run.json how it ended. What is found
   /// to be wrong with the input once run.json has begun is a failure of the run.
   Ending recorded(const std::function<bool()>& work);
@@ -56,6 +57,8 @@ class RunBase {
   /// Floating-point operations of a network so far, on all ranks; none where nobody counts.
   virtual std::optional<double> network_flop() const { return {}; }
 
+  /// To the terminal and to run.json.
+  void warn(const std::string& text);
   /// First lines of the header: program, title, warnings, input.
   void say_input();
   void say_warnings();

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace rhexis::app {
 
@@ -12,6 +14,7 @@ struct RunOptions {
   std::filesystem::path directory;
   std::filesystem::path restart;  ///< checkpoint; empty: from the start
   bool quiet = false;
+  std::vector<std::string> command = {};    ///< as it was called
   double started = 0;                       ///< s, of the clock
   std::shared_ptr<Pictures> pictures = {};  ///< of the runs that this one is one of; null: it has its own
 };

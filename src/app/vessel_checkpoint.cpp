@@ -8,6 +8,7 @@
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "input/catalogue.hpp"
+#include "input/difference.hpp"
 #include "output/checkpoint.hpp"
 
 namespace rhexis::app {
@@ -20,22 +21,25 @@ output::WordBlock word_block(const peridynamics::Body& body) {
   return {l.rows, l.words, l.first_row, l.row_count, l.first_word, l.word_count};
 }
 
-/// The keys that make a body what it is, with their values: what a checkpoint can only be restored to. Where
-/// a network says what the vessel is like, that.
-std::string body_description(const Configuration& c) {
-  nlohmann::ordered_json values;
-  constexpr std::array of_the_body = {"vessel", "material", "scatter", "spot", "discretisation", "boundary"};
-  for (const auto& [section, keys] : c.record.items()) {
-    if (std::ranges::find(of_the_body, input::without_table(section)) == of_the_body.end()) continue;
-    for (const auto& [key, entry] : keys.items()) values[section][key] = entry.at("value");
-  }
-  if (c.is_coupled()) {
-    values["vessel"] = {{"inner_radius", c.vessel.inner_radius},
-                        {"outer_radius", c.vessel.outer_radius},
-                        {"length", c.vessel.length},
-                        {"critical_stretch", *c.vessel.critical_stretch}};
-  }
-  return values.dump();
+/// The sections that make a body what it is: a checkpoint can only be restored to the same.
+bool of_the_body(const std::string& key) {
+  constexpr std::array sections = {"vessel", "material", "scatter", "spot", "discretisation", "boundary"};
+  return std::ranges::find(sections, input::section_of(input::without_table(key))) != sections.end();
+}
+
+/// The sections that say what happens to a body; the rest says what is shown of it.
+bool of_its_load(const std::string& key) {
+  constexpr std::array others = {"scene", "time", "output", "insitu", "start"};
+  return !of_the_body(key) && std::ranges::find(others, input::section_of(key)) == others.end();
+}
+
+/// What a network may say of a body.
+std::string measures(const peridynamics::Parameters& v) {
+  return nlohmann::ordered_json{{"inner_radius", v.inner_radius},
+                                {"outer_radius", v.outer_radius},
+                                {"length", v.length},
+                                {"critical_stretch", *v.critical_stretch}}
+      .dump();
 }
 
 /// A number that may be absent, as checkpoints store it: times and lengths here are never negative.
@@ -54,7 +58,8 @@ void VesselRun::write_checkpoint(long step) {
   const auto path = options_.directory / "checkpoints" / fmt::format("step_{:06d}.h5", step);
   output::CheckpointWriter file(path, comm_);
   file.write("step", std::int64_t{step});
-  file.write("body", body_description(c_));
+  file.write("input", c_.record.dump());
+  file.write("measures", measures(c_.vessel));
   file.write("time_step", c_.time_step);
   file.write("frame_phase", std::int64_t{saved.frame_phase});
   file.write("wrapped", std::int64_t{saved.wrapped});
@@ -67,6 +72,7 @@ void VesselRun::write_checkpoint(long step) {
   file.write("vent", vent_now_);
   file.write("first_bond_break", results_.first_bond_break_s.value_or(absent));
   file.write("rupture_onset", results_.rupture_onset_s.value_or(absent));
+  file.write("onset_pressure", results_.pressure_at_onset_Pa.value_or(absent));
   file.write("onset_displacement", results_.max_displacement_at_onset_m.value_or(absent));
   for (std::size_t k = 0; k < 3; ++k) {
     file.write(fmt::format("frame_{}", axes[k]), saved.frame[k]);
@@ -83,7 +89,8 @@ void VesselRun::write_checkpoint(long step) {
 void VesselRun::read_checkpoint() {
   output::CheckpointReader file(options_.restart, comm_);
   peridynamics::Body::Saved saved = body_->save();
-  double time_step = 0, onset = absent, first_break = absent, onset_displacement = absent;
+  double time_step = 0, onset = absent, first_break = absent, onset_displacement = absent,
+         onset_pressure = absent;
   std::int64_t pending = 0, step = 0, frame_phase = 0, wrapped = 0;
   file.read("step", step);
   first_step_ = static_cast<long>(step);
@@ -91,12 +98,18 @@ void VesselRun::read_checkpoint() {
     throw InputError(fmt::format("{}: the checkpoint is of step {}, this run ends at step {}; raise time.end",
                                  options_.restart.string(), first_step_, c_.steps));
   }
-  std::string body;
-  file.read("body", body);
-  if (body != body_description(c_)) {
-    throw InputError(fmt::format("{}: the checkpoint is of another body: {}; this run has {}",
-                                 options_.restart.string(), body, body_description(c_)));
-  }
+  std::string input, earlier_measures;
+  file.read("input", input);
+  const auto earlier = nlohmann::ordered_json::parse(input);
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(options_.restart.string() + ": the checkpoint is of another body: " + why);
+  };
+  if (const auto of_body = input::differences(earlier, c_.record, of_the_body); !of_body.empty())
+    refuse(of_body.front().text);
+  file.read("measures", earlier_measures);
+  if (earlier_measures != measures(c_.vessel)) refuse(earlier_measures + ", and now " + measures(c_.vessel));
+  for (const input::Difference& d : input::differences(earlier, c_.record, of_its_load))
+    c_.warnings.push_back(fmt::format("{}, from step {} on", d.text, first_step_));
   file.read("time_step", time_step);
   if (time_step != c_.time_step) {
     throw InputError(
@@ -118,9 +131,11 @@ void VesselRun::read_checkpoint() {
   vent_next_ = vent_now_;
   file.read("first_bond_break", first_break);
   file.read("rupture_onset", onset);
+  file.read("onset_pressure", onset_pressure);
   file.read("onset_displacement", onset_displacement);
   results_.first_bond_break_s = present(first_break);
   results_.rupture_onset_s = present(onset);
+  results_.pressure_at_onset_Pa = present(onset_pressure);
   results_.max_displacement_at_onset_m = present(onset_displacement);
   for (std::size_t k = 0; k < 3; ++k) {
     file.read(fmt::format("frame_{}", axes[k]), saved.frame[k]);

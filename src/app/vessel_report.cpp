@@ -12,6 +12,10 @@ void VesselRun::say_header() {
   // A coupled run has said its title before the network was solved.
   if (coupling_ == nullptr) say_title(console_, c_);
   say_warnings();
+  if (!options_.restart.empty()) {
+    console_.item("restart", fmt::format("from step {} ({}) of {}", first_step_,
+                                         quantity(time_at(first_step_), "s"), options_.restart.string()));
+  }
   console_.item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
                                       quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
                                       quantity(v.length, "m"), v.ends));

@@ -94,7 +94,7 @@ void VesselRun::open_results() {
   } else {
     history_.emplace(options_.directory / "history.csv", comm_);
   }
-  open_record();
+  open_record(restarts ? std::optional<std::int64_t>(first_step_) : std::nullopt);
   if (coupling_ != nullptr) coupling_->open(options_.directory);
   if (c_.output.fields.empty()) return;
   output::PointSeriesPlan plan;
@@ -203,7 +203,7 @@ bool VesselRun::balance_due(long step) const {
 void VesselRun::warn_of_crushed_bonds(long step, const peridynamics::Totals& t) {
   if (t.crushed_bonds == 0 || crushing_was_said_) return;
   crushing_was_said_ = true;
-  console_.warning(
+  warn(
       fmt::format("at {} {} bonds are compressed to less than half their length, where {} is no longer known "
                   "to be stable: the run will stop if energy exceeds the work done by a tenth; a smaller "
                   "time.step is safer",
@@ -218,9 +218,10 @@ void VesselRun::take_notice(long step, std::uint64_t flags) {
   if (flags & Flag::broken && !results_.first_bond_break_s) results_.first_bond_break_s = time_at(step);
   if (flags & Flag::ruptured && !results_.rupture_onset_s) {
     results_.rupture_onset_s = time_at(step);
+    results_.pressure_at_onset_Pa = pressure_at(step) * vent_now_;
     results_.max_displacement_at_onset_m = body_->max_displacement();
     console_.line(fmt::format("  rupture begins at {} under {}, largest displacement {}",
-                              quantity(time_at(step), "s"), quantity(pressure_at(step) * vent_now_, "Pa"),
+                              quantity(time_at(step), "s"), quantity(*results_.pressure_at_onset_Pa, "Pa"),
                               quantity(*results_.max_displacement_at_onset_m, "m", 3)));
   }
 }

@@ -20,4 +20,13 @@ constexpr Real wall_shear_stress(Real radius, Real viscosity, Real flow) {
   return 4 * viscosity * flow / (std::numbers::pi_v<Real> * radius * radius * radius);
 }
 
+/// Re = 2 rho |Q| / (pi r0 eta), of diameter and mean velocity; density rho in kg/m3.
+template <class Real>
+constexpr Real reynolds_number(Real radius, Real viscosity, Real flow, Real density) {
+  return 2 * density * (flow < 0 ? -flow : flow) / (std::numbers::pi_v<Real> * radius * viscosity);
+}
+
+/// Above it flow in a pipe is not laminar, and Eq. (9) gives too low a resistance.
+inline constexpr double laminar_reynolds_number = 2300;
+
 }  // namespace rhexis::hemodynamics

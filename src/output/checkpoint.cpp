@@ -15,7 +15,7 @@ namespace rhexis::output {
 namespace {
 
 constexpr const char* format_attribute = "format";
-constexpr const char* format_text = "rhexis checkpoint 3";
+constexpr const char* format_text = "rhexis checkpoint 4";
 
 Slab slab_of(const WordBlock& block) {
   const auto size = [](std::int64_t value) { return static_cast<hsize_t>(value); };

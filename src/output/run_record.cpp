@@ -25,6 +25,7 @@ void to_json(Json& json, const NetworkResults& network) {
                        {"max_imbalance", or_null(network.max_imbalance)},
                        {"volume_m3", or_null(network.volume_m3)},
                        {"surface_m2", or_null(network.surface_m2)},
+                       {"highest_reynolds", or_null(network.highest_reynolds)},
                        {"highest_pressure_Pa", or_null(network.highest_pressure_Pa)},
                        {"lowest_pressure_Pa", or_null(network.lowest_pressure_Pa)},
                        {"solver", or_null(network.solver)},
@@ -43,6 +44,7 @@ void to_json(Json& json, const Results& results) {
                        {"simulated_s", or_null(results.simulated_s)},
                        {"first_bond_break_s", or_null(results.first_bond_break_s)},
                        {"rupture_onset_s", or_null(results.rupture_onset_s)},
+                       {"pressure_at_onset_Pa", or_null(results.pressure_at_onset_Pa)},
                        {"max_displacement_at_onset_m", or_null(results.max_displacement_at_onset_m)},
                        {"max_displacement_m", or_null(results.max_displacement_m)},
                        {"max_damage", or_null(results.max_damage)},
@@ -76,11 +78,23 @@ void to_json(Json& json, const Performance& performance) {
                        {"energy_J", or_null(performance.energy_J)}});
 }
 
-RunRecord::RunRecord(std::filesystem::path path, const std::string& version, const std::string& commit,
-                     Json input, parallel::Communicator communicator)
+RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance,
+                     parallel::Communicator communicator)
     : path_(std::move(path)), communicator_(communicator) {
-  document_ = Json::object({{"version", version}, {"commit", commit}, {"input", std::move(input)}});
+  document_ = Json::object({{"version", provenance.version},
+                            {"commit", provenance.commit},
+                            {"command", provenance.command},
+                            {"started", provenance.started},
+                            {"file", provenance.file},
+                            {"checkpoint", or_null(provenance.checkpoint)},
+                            {"first_step", or_null(provenance.first_step)},
+                            {"input", provenance.input},
+                            {"warnings", Json::array()}});
   write("running", {}, {});
+}
+
+void RunRecord::warn(const std::string& text) {
+  document_["warnings"].push_back(text);
 }
 
 void RunRecord::complete(const Results& results, const Performance& performance) {

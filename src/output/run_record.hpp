@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "parallel/communicator.hpp"
 
@@ -17,6 +18,7 @@ struct NetworkResults {
   std::optional<double> inflow_m3_s = {};
   std::optional<double> max_imbalance = {};               ///< relative to the inflow
   std::optional<double> volume_m3 = {}, surface_m2 = {};  ///< of the lumens
+  std::optional<double> highest_reynolds = {};            ///< number
   std::optional<double> highest_pressure_Pa = {}, lowest_pressure_Pa = {};
   std::optional<std::string> solver = {};
   std::optional<std::int64_t> iterations = {};
@@ -33,7 +35,8 @@ struct Results {
   std::optional<std::int64_t> steps = {};
   std::optional<double> simulated_s = {};
   std::optional<double> first_bond_break_s = {};
-  std::optional<double> rupture_onset_s = {};  ///< first time that some particle's damage >= 0.2
+  std::optional<double> rupture_onset_s = {};       ///< first time that some particle's damage >= 0.2
+  std::optional<double> pressure_at_onset_Pa = {};  ///< the largest in the vessel, as it acted
   std::optional<double> max_displacement_at_onset_m = {};
   std::optional<double> max_displacement_m = {}, max_damage = {};
   std::optional<double> rupture_length_m = {};  ///< axial extent of damage >= 0.2
@@ -70,14 +73,27 @@ void to_json(nlohmann::ordered_json& json, const NetworkResults& network);
 void to_json(nlohmann::ordered_json& json, const Results& results);
 void to_json(nlohmann::ordered_json& json, const Performance& performance);
 
+/// Where the numbers come from: program, call and input.
+struct Provenance {
+  std::string version = {}, commit = {};
+  std::vector<std::string> command = {};        ///< as it was called
+  std::string file = {};                        ///< of input
+  std::string started = {};                     ///< 2026-11-29T00:18:13Z
+  std::optional<std::string> checkpoint = {};   ///< that the run goes on from
+  std::optional<std::int64_t> first_step = {};  ///< of that checkpoint
+  nlohmann::ordered_json input = nullptr;       ///< the whole configuration as resolved
+};
+
 /// The file, from the first moment of a run to its last. Collective; only the root writes, in one step each
 /// time, so the file can be read at any moment. All writing throws RunError on all ranks when it cannot be
 /// done.
 class RunRecord {
  public:
-  /// `input` is the whole configuration as resolved. Writes the file with status "running".
-  RunRecord(std::filesystem::path path, const std::string& version, const std::string& commit,
-            nlohmann::ordered_json input, parallel::Communicator communicator);
+  /// Writes the file with status "running".
+  RunRecord(std::filesystem::path path, const Provenance& provenance, parallel::Communicator communicator);
+
+  /// Something that the user was told; is written with what comes next.
+  void warn(const std::string& text);
 
   void complete(const Results& results, const Performance& performance);
 

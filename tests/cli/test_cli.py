@@ -3,6 +3,7 @@
 Run by ctest as: test_cli.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
 """
 
+import calendar
 import csv
 import json
 import os
@@ -276,6 +277,12 @@ class Cli(unittest.TestCase):
                             "whole/checkpoints/step_000150.h5", ranks=2)
         self.assertEqual(go_on.returncode, 0, go_on.stderr)
         self.assertEqual(self.history("whole")[-1], self.history("rest")[-1])
+        checkpoint = "whole/checkpoints/step_000150.h5"
+        self.assertIn(f"restart     from step 150 (75 us) of {checkpoint}", go_on.stdout)
+        record = self.record("rest")
+        self.assertEqual((record["checkpoint"], record["first_step"]), (checkpoint, 150))
+        self.assertEqual(record["warnings"], [])
+        self.assertEqual((self.record("whole")["checkpoint"], self.record("whole")["first_step"]), (None, None))
         with h5py.File(self.path("whole/particles.h5")) as a, h5py.File(
                 self.path("rest/particles_from_000150.h5")) as b:
             self.assertTrue((a["position/000400"][:] == b["position/000400"][:]).all())
@@ -295,14 +302,39 @@ class Cli(unittest.TestCase):
         last = int(self.history("cut")[-1]["step"])
         self.assertEqual(last, record["results"]["steps"])
         self.assertTrue(os.path.exists(self.path(f"cut/checkpoints/step_{last:06d}.h5")))
-        for checkpoint, more in (("absent.h5", []), ("whole/checkpoints/step_000150.h5", ["--set", "time.step=400 ns"]),
-                                 ("whole/checkpoints/step_000150.h5", ["--set", "vessel.length=3 mm"]),
-                                 ("whole/checkpoints/step_000150.h5", ["--set", "boundary.ends=free"]),
-                                 ("whole/checkpoints/step_000150.h5", ["--set", "time.end=50 us"])):
-            refused = self.rhexis("run", "vessel.toml", "-o", "x", "--restart", checkpoint, *more)
+        for file, more, why in (("absent.h5", [], "no such file"),
+                                (checkpoint, ["--set", "time.step=400 ns"], "time.step"),
+                                (checkpoint, ["--set", "vessel.length=3 mm"],
+                                 'another body: vessel.length was "2 mm", and now is "3 mm"'),
+                                (checkpoint, ["--set", "boundary.ends=free"], "boundary.ends"),
+                                (checkpoint, ["--set", "time.end=50 us"], "time.end")):
+            refused = self.rhexis("run", "vessel.toml", "-o", "x", "--restart", file, *more)
             self.assertEqual(refused.returncode, 2, refused.stderr)
-            self.assertIn(checkpoint, refused.stderr)
+            self.assertIn(file, refused.stderr)
+            self.assertIn(why, refused.stderr)
             self.assertFalse(os.path.exists(self.path("x")))
+        # Another load is a user's right, and is told.
+        other = self.rhexis("run", "vessel.toml", "-o", "other", "--set", "time.end=80 us", "--restart", checkpoint,
+                            "--set", "load.pressure=200 kPa")
+        self.assertEqual(other.returncode, 0, other.stderr)
+        told = 'load.pressure was "238 kPa", and now is "200 kPa", from step 150 on'
+        self.assertIn(told, other.stderr)
+        self.assertEqual(self.record("other")["warnings"], [told])
+
+    def test_the_record_tells_how_to_run_it_again(self):
+        self.write(GOOD)
+        more = ["--set", "boundary.ends=axial_periodic", "--set", "boundary.end_length=0.5 mm", "--set", "time.end=20 us"]
+        before = time.time()
+        result = self.rhexis("run", "vessel.toml", "-o", "out", *more)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        record = self.record("out")
+        self.assertEqual(record["command"], [RHEXIS, "run", "vessel.toml", "-o", "out", *more])
+        self.assertEqual(record["file"], "vessel.toml")
+        started = calendar.timegm(time.strptime(record["started"], "%Y-%m-%dT%H:%M:%SZ"))
+        self.assertLessEqual(abs(started - before), 10)
+        [warning] = record["warnings"]
+        self.assertIn('boundary.end_length=0.5 mm: has no effect where boundary.ends = "axial_periodic"', warning)
+        self.assertIn(f"rhexis: warning: {warning}\n", result.stderr)
 
     def test_what_breaks_at_the_last_moment_is_told(self):
         self.write(replaced("end", 'end = "200 us"') + "[material]\ncritical_stretch = 0.1\n")
@@ -310,7 +342,10 @@ class Cli(unittest.TestCase):
             result = self.rhexis("run", "vessel.toml", "-o", "out", *more)
             self.assertEqual(result.returncode, 0, result.stderr)
             return self.record("out")["results"]
-        moments = {key: results()[key] for key in ("first_bond_break_s", "rupture_onset_s")}
+        whole = results()
+        onset = whole["rupture_onset_s"]
+        self.assertAlmostEqual(whole["pressure_at_onset_Pa"], 238e3 * min(onset / 0.1e-3, 1), delta=1)
+        moments = {key: whole[key] for key in ("first_bond_break_s", "rupture_onset_s")}
         for key, moment in moments.items():
             ended = results("--set", f"time.end={moment} s")
             self.assertEqual(ended["simulated_s"], moment)

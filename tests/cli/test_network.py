@@ -285,6 +285,25 @@ class Network(unittest.TestCase):
             self.assertIn(text, result.stdout)
         self.assertEqual(os.listdir(self.path), ["n.toml"])
 
+    def test_flows_that_mean_little_are_told(self):
+        self.write("n.toml", FILES)
+        self.write("v.csv", VESSELS)
+        self.write("j.csv", JUNCTIONS)
+        self.assertIn("2 vessels, 3 junctions", self.rhexis("check", "n.toml").stdout)
+        for junctions, vessels, warning in (
+                (JUNCTIONS.replace("12,0", "12,"), VESSELS, "nothing flows"),
+                (JUNCTIONS, VESSELS.replace("[um]", "[mm]"), "the Reynolds number reaches"),
+                (JUNCTIONS, VESSELS, None)):
+            self.write("j.csv", junctions)
+            self.write("v.csv", vessels)
+            for more, ranks in (([], None), (["--set", "network.tier=distributed"], 2)):
+                result = self.run_well("n.toml", "-o", "out", *more, ranks=ranks)
+                record = self.record("out")
+                self.assertEqual([w.startswith(warning or "-") for w in record["warnings"]], [True] if warning else [])
+                self.assertEqual(result.stderr.count("rhexis: warning: "), len(record["warnings"]), result.stderr)
+                if warning and "Reynolds" in warning:
+                    self.assertGreater(record["results"]["network"]["highest_reynolds"], 2300)
+
     def test_restart_is_for_vessels(self):
         self.write("n.toml", TREE)
         self.assert_refused(self.rhexis("run", "n.toml", "--restart", "x.h5"), ["--restart"], "restart", ["n.toml"])

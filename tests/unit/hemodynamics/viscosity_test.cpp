@@ -69,5 +69,11 @@ TEST(Poiseuille, ResistanceAndShear) {
   EXPECT_NEAR(wall_shear_stress(r, eta, q) * 2 * length / (drop * r), 1, 1e-14);
 }
 
+TEST(Poiseuille, ReynoldsNumberIsOfDiameterAndMeanVelocity) {
+  const double r = 2e-3, eta = 4e-3, velocity = 0.3, q = velocity * std::numbers::pi * r * r;
+  for (const double flow : {q, -q})
+    EXPECT_NEAR(reynolds_number(r, eta, flow, 1060.0), 1060 * velocity * 2 * r / eta, 1e-9);
+}
+
 }  // namespace
 }  // namespace rhexis::hemodynamics

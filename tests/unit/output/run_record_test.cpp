@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "temporary_directory.hpp"
@@ -23,31 +25,35 @@ std::vector<std::string> keys_of(const Json& object) {
   return keys;
 }
 
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
 TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
   const test::TemporaryDirectory directory;
-  RunRecord record(directory / "run.json", "0.1.0", "abc", {{"vessel", {{"length", 1.0}}}}, world);
+  RunRecord record(directory / "run.json",
+                   {.version = "0.1.0", .commit = "abc", .input = {{"vessel", {{"length", 1.0}}}}}, world);
   const Json json = Json::parse(test::text_of(directory / "run.json"));
   EXPECT_EQ(keys_of(json),
-            (std::vector<std::string>{"version", "commit", "input", "status", "results", "performance"}));
+            words("version commit command started file checkpoint first_step input warnings status "
+                  "results performance"));
   EXPECT_EQ(json["version"], "0.1.0");
   EXPECT_EQ(json["commit"], "abc");
   EXPECT_EQ(json["input"]["vessel"]["length"], 1.0);
   EXPECT_EQ(json["status"], "running");
   EXPECT_EQ(keys_of(json["results"]),
-            (std::vector<std::string>{"particles", "bonds", "family_max", "time_step_s", "stable_time_step_s",
-                                      "steps", "simulated_s", "first_bond_break_s", "rupture_onset_s",
-                                      "max_displacement_at_onset_m", "max_displacement_m", "max_damage",
-                                      "rupture_length_m", "opening_area_m2", "energy_drift", "network",
-                                      "coupling", "cascade", "ensemble"}));
+            words("particles bonds family_max time_step_s stable_time_step_s steps simulated_s "
+                  "first_bond_break_s rupture_onset_s pressure_at_onset_Pa max_displacement_at_onset_m "
+                  "max_displacement_m max_damage rupture_length_m opening_area_m2 energy_drift network "
+                  "coupling cascade ensemble"));
   EXPECT_EQ(keys_of(json["results"]["network"]),
-            (std::vector<std::string>{"vessels", "junctions", "inflow_m3_s", "max_imbalance", "volume_m3",
-                                      "surface_m2", "highest_pressure_Pa", "lowest_pressure_Pa", "solver",
-                                      "iterations", "queries", "screening"}));
+            words("vessels junctions inflow_m3_s max_imbalance volume_m3 surface_m2 highest_reynolds "
+                  "highest_pressure_Pa lowest_pressure_Pa solver iterations queries screening"));
   EXPECT_EQ(keys_of(json["performance"]),
-            (std::vector<std::string>{"processor", "compiler", "ranks", "threads", "wall_s", "solve_s",
-                                      "insitu_s", "output_s", "bond_evaluations", "bond_evaluations_per_s",
-                                      "flop", "exchange_s", "exchange_bytes", "message_latency_s",
-                                      "message_bandwidth_B_s", "peak_rss_bytes", "node_hours", "energy_J"}));
+            words("processor compiler ranks threads wall_s solve_s insitu_s output_s bond_evaluations "
+                  "bond_evaluations_per_s flop exchange_s exchange_bytes message_latency_s "
+                  "message_bandwidth_B_s peak_rss_bytes node_hours energy_J"));
   for (const Json& part : {json["results"], json["results"]["network"], json["performance"]}) {
     for (const auto& item : part.items()) EXPECT_TRUE(item.value().is_null() || item.key() == "network");
   }
@@ -55,13 +61,20 @@ TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
 
 TEST(RunRecord, TellsHowTheRunEnded) {
   const test::TemporaryDirectory directory;
-  RunRecord record(directory / "run.json", "0.1.0", "abc", Json::object(), world);
+  RunRecord record(
+      directory / "run.json",
+      {.command = {"rhexis", "run", "a.toml"}, .checkpoint = "step_000150.h5", .first_step = 150}, world);
   Results results{.particles = 54800, .max_damage = 0.1, .energy_drift = std::nan("")};
+  record.warn("time.end is not a whole number of steps");
   results.network.vessels = 34'000'000'000;
   results.network.solver = "tree";
   record.complete(results, {.ranks = world.size(), .wall_s = 1.5});
   Json json = Json::parse(test::text_of(directory / "run.json"));
   EXPECT_EQ(json["status"], "completed");
+  EXPECT_EQ(json["command"], Json({"rhexis", "run", "a.toml"}));
+  EXPECT_EQ(json["checkpoint"], "step_000150.h5");
+  EXPECT_EQ(json["first_step"], 150);
+  EXPECT_EQ(json["warnings"], Json({"time.end is not a whole number of steps"}));
   EXPECT_EQ(json["results"]["particles"], 54800);
   EXPECT_EQ(json["results"]["max_damage"], 0.1);
   EXPECT_TRUE(json["results"]["energy_drift"].is_null());
@@ -79,8 +92,8 @@ TEST(RunRecord, TellsHowTheRunEnded) {
 
 TEST(RunRecord, AFolderThatIsNotThereIsARunErrorOnAllRanks) {
   const test::TemporaryDirectory directory;
-  const std::string message = test::message_of<RunError>(
-      [&] { RunRecord(directory / "no/run.json", "", "", Json::object(), world); });
+  const std::string message =
+      test::message_of<RunError>([&] { RunRecord(directory / "no/run.json", {}, world); });
   EXPECT_NE(message.find("no/run.json: cannot write the file"), std::string::npos) << message;
 }
 

@@ -1,0 +1,44 @@
+#include "input/difference.hpp"
+
+#include <fmt/format.h>
+
+namespace rhexis::input {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What the record has of a key; null where it has none.
+Json entry_of(const Json& record, const std::string& section, const std::string& name) {
+  const Json::json_pointer place = Json::json_pointer() / section / name;
+  return record.contains(place) ? record[place] : Json();
+}
+
+std::string written(const Json& entry) {
+  return entry.is_null() ? "not there" : entry.value("written", Json()).dump();
+}
+
+}  // namespace
+
+std::vector<Difference> differences(const Json& earlier, const Json& now,
+                                    const std::function<bool(const std::string& key)>& counts) {
+  std::vector<Difference> found;
+  const auto compare = [&](const std::string& section, const std::string& name) {
+    const std::string key = section + "." + name;
+    if (!counts(key)) return;
+    const Json was = entry_of(earlier, section, name), is = entry_of(now, section, name);
+    if (was.is_null() != is.is_null() ||
+        (is.is_object() && was.is_object() && was.value("value", Json()) != is.value("value", Json())))
+      found.push_back({key, fmt::format("{} was {}, and now is {}", key, written(was), written(is))});
+  };
+  for (const auto& [section, keys] : now.items()) {
+    for (const auto& [name, entry] : keys.items()) compare(section, name);
+  }
+  for (const auto& [section, keys] : earlier.items()) {
+    for (const auto& [name, entry] : keys.items()) {
+      if (entry_of(now, section, name).is_null()) compare(section, name);
+    }
+  }
+  return found;
+}
+
+}  // namespace rhexis::input
