@@ -28,7 +28,7 @@ def main(description, name, what, plot):
     output = arguments.output or arguments.table.with_suffix(".png")
     try:
         figure = plot(read(arguments.table))
-    except (KeyError, IndexError, ValueError, TypeError) as error:
+    except (KeyError, IndexError, ValueError, TypeError, OSError) as error:
         sys.exit(f"error: {arguments.table} is not the {name}.csv of {what} ({error})")
     figure.savefig(output, dpi=150)
     print(output)

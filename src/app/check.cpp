@@ -140,6 +140,7 @@ void check(const Configuration& c, parallel::Communicator comm) {
     Configuration solved = c;
     solved.network.statistics = false;
     Console console(comm.is_root(), false);
+    console.line("Solving the network, which says what the wall and its load are:");
     const NetworkCoupling coupling(solved, comm, console);
     check_wall(solved, comm, [&](Console& to) { coupling.say_header(to); });
   } else {

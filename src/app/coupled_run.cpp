@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <utility>
 
 #include "app/network_coupling.hpp"
 #include "app/network_files.hpp"
@@ -27,6 +28,8 @@ class CascadeRun : private RunBase {
   }
 
   Ending run() {
+    // Of the input: told once, not by every event.
+    const std::vector<std::string> warnings = std::exchange(c_.warnings, {});
     const Configuration first = c_;
     say_title(console_, c_);
     std::optional<NetworkCoupling> next;
@@ -34,6 +37,7 @@ class CascadeRun : private RunBase {
     const Ending ending = recorded([&] {
       open_directory(output::EarlierResults::remove);
       open_record();
+      for (const std::string& warning : warnings) warn(warning);
       start_insitu();
       results_.cascade = nlohmann::ordered_json::array();
       Ending last = Ending::completed;

@@ -61,11 +61,14 @@ class ImplicitTier : public NetworkTier {
     s.inflow = flow->flow();
     s.highest_pressure = std::max(flow->inlet_pressure(), flow->outlet_pressure());
     s.lowest_pressure = std::min(flow->inlet_pressure(), flow->outlet_pressure());
-    const double radius = tree_.vessel(0).radius;
-    s.highest_reynolds = hemodynamics::reynolds_number(
-        radius,
-        hemodynamics::apparent_viscosity(mechanics_.viscosity, radius, mechanics_.viscosity.haematocrit),
-        s.inflow, mechanics_.hydrostatic.density);
+    for (const network::VesselKind kind : {network::VesselKind::artery, network::VesselKind::vein}) {
+      const double radius = tree_.vessel(TreePair::id_of(1, kind)).radius;
+      const double eta =
+          hemodynamics::apparent_viscosity(mechanics_.viscosity, radius, mechanics_.viscosity.haematocrit);
+      s.highest_reynolds =
+          std::max(s.highest_reynolds,
+                   hemodynamics::reynolds_number(radius, eta, s.inflow, mechanics_.hydrostatic.density));
+    }
     check_flow(s, {s.lowest_pressure, s.highest_pressure});
     const bool sweeps = c_.network.statistics || c_.screening.top > 0;
     // Where every vessel of a generation is alike one of them is computed: next to nothing.
@@ -192,7 +195,7 @@ class ImplicitTier : public NetworkTier {
 void check_flow(NetworkSolution& s, const std::array<double, 2>& driving) {
   const auto [low, high] = driving;
   if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
-    s.warnings.push_back("nothing flows: the pressures that are given are all the same");
+    s.warnings.push_back("nothing flows: no difference of pressure drives blood through the network");
   if (s.highest_reynolds > hemodynamics::laminar_reynolds_number) {
     s.warnings.push_back(
         fmt::format("the Reynolds number reaches {:.0f}; above {:.0f} flow is not laminar, and real "

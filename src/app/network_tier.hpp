@@ -45,7 +45,7 @@ struct NetworkSolution {
   std::optional<double> max_imbalance;               ///< relative to the inflow
   std::optional<double> volume, surface;             ///< m3, m2
   double highest_pressure = 0, lowest_pressure = 0;  ///< Pa, of all junctions
-  double highest_reynolds = 0;                       ///< number, of all vessels (a tree's: of the widest)
+  double highest_reynolds = 0;                       ///< number, of all vessels (a tree's: of its two roots)
   std::string solver;
   std::optional<std::int64_t> iterations, haematocrit_iterations;
   std::optional<double> flop;  ///< operations, where they are counted

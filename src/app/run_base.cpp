@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <ctime>
 
 #include "app/movie.hpp"
@@ -32,7 +33,8 @@ void RunBase::open_record(std::optional<std::int64_t> first_step) {
       .commit = commit(),
       .command = options_.command,
       .file = c_.file,
-      .started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))),
+      .started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                             fmt::gmtime(std::time(nullptr) - std::lround(seconds_now() - started_))),
       .first_step = first_step,
       .input = c_.record};
   if (first_step) provenance.checkpoint = options_.restart.string();
@@ -70,7 +72,7 @@ void RunBase::note_failure(const std::string& reason) {
   try {
     record_->fail(reason, results_, performance());
   } catch (const RunError& also) {
-    warn(also.what());
+    console_.warning(also.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include "app/stopwatch.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "input/catalogue.hpp"
 #include "input/difference.hpp"
 #include "output/checkpoint.hpp"
@@ -27,19 +28,22 @@ bool of_the_body(const std::string& key) {
   return std::ranges::find(sections, input::section_of(input::without_table(key))) != sections.end();
 }
 
-/// The sections that say what happens to a body; the rest says what is shown of it.
+/// The sections that say what happens to a body; the others say how long, and what is shown.
 bool of_its_load(const std::string& key) {
-  constexpr std::array others = {"scene", "time", "output", "insitu", "start"};
+  constexpr std::array others = {"scene", "time", "output", "insitu", "network", "screening"};
   return !of_the_body(key) && std::ranges::find(others, input::section_of(key)) == others.end();
 }
 
-/// What a network may say of a body.
-std::string measures(const peridynamics::Parameters& v) {
-  return nlohmann::ordered_json{{"inner_radius", v.inner_radius},
-                                {"outer_radius", v.outer_radius},
-                                {"length", v.length},
-                                {"critical_stretch", *v.critical_stretch}}
-      .dump();
+/// What a network may say of a body, as a record of input has it.
+nlohmann::ordered_json measures(const peridynamics::Parameters& v) {
+  const auto entry = [](double value, const std::string& written) {
+    return nlohmann::ordered_json{{"written", written}, {"value", value}};
+  };
+  return {{"vessel",
+           {{"inner_radius", entry(v.inner_radius, quantity(v.inner_radius, "m"))},
+            {"outer_radius", entry(v.outer_radius, quantity(v.outer_radius, "m"))},
+            {"length", entry(v.length, quantity(v.length, "m"))}}},
+          {"material", {{"critical_stretch", entry(*v.critical_stretch, text(*v.critical_stretch))}}}};
 }
 
 /// A number that may be absent, as checkpoints store it: times and lengths here are never negative.
@@ -59,7 +63,8 @@ void VesselRun::write_checkpoint(long step) {
   output::CheckpointWriter file(path, comm_);
   file.write("step", std::int64_t{step});
   file.write("input", c_.record.dump());
-  file.write("measures", measures(c_.vessel));
+  file.write("measures", measures(c_.vessel).dump());
+  file.write("pressure", pressure_at(step));
   file.write("time_step", c_.time_step);
   file.write("frame_phase", std::int64_t{saved.frame_phase});
   file.write("wrapped", std::int64_t{saved.wrapped});
@@ -86,6 +91,32 @@ void VesselRun::write_checkpoint(long step) {
   }
 }
 
+/// Refuses the checkpoint of another body; warns of what else happens to it from now on than before.
+void VesselRun::compare_with(output::CheckpointReader& file) {
+  using Json = nlohmann::ordered_json;
+  const auto read = [&](const std::string& name) {
+    std::string record;
+    file.read(name, record);
+    return Json::parse(record);
+  };
+  const Json input = read("input");
+  auto of_body = input::differences(input, c_.record, of_the_body);
+  if (of_body.empty()) of_body = input::differences(read("measures"), measures(c_.vessel), of_the_body);
+  if (!of_body.empty()) {
+    throw InputError(fmt::format("{}: the checkpoint is of another body: {}", options_.restart.string(),
+                                 of_body.front().text));
+  }
+  for (const input::Difference& d : input::differences(input, c_.record, of_its_load))
+    c_.warnings.push_back(fmt::format("{}, from step {} on", d.text, first_step_));
+  double pressure = 0;
+  file.read("pressure", pressure);
+  if (pressure != pressure_at(first_step_)) {
+    c_.warnings.push_back(fmt::format("the schedule had {} at step {}, and now has {}",
+                                      quantity(pressure, "Pa"), first_step_,
+                                      quantity(pressure_at(first_step_), "Pa")));
+  }
+}
+
 void VesselRun::read_checkpoint() {
   output::CheckpointReader file(options_.restart, comm_);
   peridynamics::Body::Saved saved = body_->save();
@@ -98,18 +129,7 @@ void VesselRun::read_checkpoint() {
     throw InputError(fmt::format("{}: the checkpoint is of step {}, this run ends at step {}; raise time.end",
                                  options_.restart.string(), first_step_, c_.steps));
   }
-  std::string input, earlier_measures;
-  file.read("input", input);
-  const auto earlier = nlohmann::ordered_json::parse(input);
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(options_.restart.string() + ": the checkpoint is of another body: " + why);
-  };
-  if (const auto of_body = input::differences(earlier, c_.record, of_the_body); !of_body.empty())
-    refuse(of_body.front().text);
-  file.read("measures", earlier_measures);
-  if (earlier_measures != measures(c_.vessel)) refuse(earlier_measures + ", and now " + measures(c_.vessel));
-  for (const input::Difference& d : input::differences(earlier, c_.record, of_its_load))
-    c_.warnings.push_back(fmt::format("{}, from step {} on", d.text, first_step_));
+  compare_with(file);
   file.read("time_step", time_step);
   if (time_step != c_.time_step) {
     throw InputError(

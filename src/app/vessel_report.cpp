@@ -68,7 +68,7 @@ void VesselRun::say_summary() {
   }
   console_.item("energy", fmt::format("balance off by {:.1e} of the work done", *r.energy_drift));
   const long steps = step_ - first_step_;
-  console_.item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s",
+  console_.item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s, both ends counted",
                                      *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
                                      p.bond_evaluations_per_s.value_or(0)));
   if (coupling_ != nullptr) coupling_->say_summary(console_);

@@ -6,6 +6,7 @@
 
 #include "app/network_coupling.hpp"
 #include "app/run_base.hpp"
+#include "output/checkpoint.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
 #include "peridynamics/body.hpp"
@@ -46,6 +47,7 @@ class VesselRun : private RunBase {
   void take_load();
   void write_checkpoint(long step);
   void read_checkpoint();
+  void compare_with(output::CheckpointReader& file);
   void say_summary();
   std::optional<std::int64_t> bond_evaluations() const override {
     return start_bond_evaluations_ + body_->bond_evaluations();

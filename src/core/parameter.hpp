@@ -37,7 +37,8 @@ using ParameterTarget =
     std::variant<double*, std::optional<double>*, std::int64_t*, std::optional<std::int64_t>*, bool*,
                  std::string*, std::vector<std::string>*, std::vector<double>*, std::vector<CurvePoint>*>;
 
-/// Another key, and the values of it that are meant, as a user would write them in TOML.
+/// Another key, and the values of it that are meant, as a user would write them in TOML; none: any
+/// that is given.
 struct Condition {
   std::string key = {};
   std::vector<std::string> values = {};

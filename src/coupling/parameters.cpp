@@ -42,20 +42,22 @@ ParameterList declare(Parameters& p) {
        "simulated "
        "next: this many at most; 0: only coupling.vessel. Needs an explicit network.",
        "", Range::between(0, 1000)},
-      {"cascade.outcome",
-       &p.outcome,
-       "",
-       "\"bleeding\"",
-       "What a ruptured vessel does from then on: it bleeds through the opening that it had at the end, or "
-       "it "
-       "is "
-       "occluded (a clot, a clamp, a spasm) and the others carry its flow.",
-       "",
-       {},
-       {"bleeding", "occlusion"}},
-      {"cascade.risk_limit", &p.risk_limit, "1", "1",
-       "The cascade ends when no vessel's risk (strain over critical stretch) is above this.", "",
-       Range::positive()},
+      only_with({"cascade.events", {}}, {"cascade.outcome",
+                                         &p.outcome,
+                                         "",
+                                         "\"bleeding\"",
+                                         "What a ruptured vessel does from then on: it bleeds through the "
+                                         "opening that it had at the end, or "
+                                         "it "
+                                         "is "
+                                         "occluded (a clot, a clamp, a spasm) and the others carry its flow.",
+                                         "",
+                                         {},
+                                         {"bleeding", "occlusion"}}),
+      only_with({"cascade.events", {}},
+                {"cascade.risk_limit", &p.risk_limit, "1", "1",
+                 "The cascade ends when no vessel's risk (strain over critical stretch) is above this.", "",
+                 Range::positive()}),
 
       {"body.tissue_tension", &p.tension, "Pa", "\"0 Pa\"", "Pressure of the tissue around the vessel, P_t.",
        "Eq. (7)", Range::any()},

@@ -42,8 +42,8 @@ GraphSolver choose_solver(const GraphSolverOptions& options, std::size_t unknown
   if (options.solver == GraphSolver::elimination) {
     throw InputError(
         "solver 'elimination' leaves " + std::to_string(unknowns) +
-        " junctions of this network, which is neither a tree nor made of series and parallel vessels "
-        "only: use 'auto'");
+        " junctions of this network, which has loops, or more than two places where a pressure is given: "
+        "use 'auto'");
   }
   if (options.solver != GraphSolver::automatic) return options.solver;
   return unknowns <= largest_for_ldlt ? GraphSolver::ldlt : GraphSolver::approximate_cholesky;

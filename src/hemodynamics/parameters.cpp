@@ -32,8 +32,9 @@ ParameterList declare(Parameters& p) {
                  "um, and the "
                  "one in vivo is infinite at 1.1 um.",
                  "", Range{.lower = 1.15e-6, .upper = 1e-5}}),
-      {"blood.density", &p.density, "kg/m3", "\"1060 kg/m3\"", "Of blood, for the pressure of its weight.",
-       "Eq. (7)", Range::positive()},
+      {"blood.density", &p.density, "kg/m3", "\"1060 kg/m3\"",
+       "Of blood, for the pressure of its weight, Reynolds numbers and a coupled vessel's leak.", "Eq. (7)",
+       Range::positive()},
       {"blood.phase_separation", &p.phase_separation, "", "false",
        "Explicit networks: red cells divide unevenly at bifurcations, so that every vessel has its own "
        "haematocrit.",

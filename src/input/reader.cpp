@@ -116,6 +116,11 @@ std::string warning_of(const Parameter& parameter, const ResolvedValue& value, c
   if (condition.key.empty() || value.origin == "default") return {};
   const auto other = std::ranges::find(resolved.values, condition.key, &ResolvedValue::key);
   if (other == resolved.values.end()) return {};
+  if (condition.values.empty()) {
+    return other->origin != "default"
+               ? ""
+               : fmt::format("{}: has no effect without {}", value.place, condition.key);
+  }
   const std::string is = written(other->given);
   if (std::ranges::find(condition.values, is) != condition.values.end()) return {};
   return fmt::format("{}: has no effect where {} = {}, only with {}", value.place, condition.key,

@@ -192,9 +192,11 @@ ParameterList declare_start(Parameters& p) {
        "which "
        "the schedule first has it; 0: from the unloaded wall.",
        "", Range::not_negative()},
-      {"start.tolerance", &p.equilibrium_tolerance, "1", "1e-4",
-       "Largest force on a particle left over in that equilibrium, relative to the force of the load.", "",
-       Range::between(1e-12, 0.1)},
+      only_with(
+          {"start.equilibrium_pressure", {}},
+          {"start.tolerance", &p.equilibrium_tolerance, "1", "1e-4",
+           "Largest force on a particle left over in that equilibrium, relative to the force of the load.",
+           "", Range::between(1e-12, 0.1)}),
   };
 }
 

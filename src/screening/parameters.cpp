@@ -8,8 +8,9 @@ ParameterList declare(Parameters& p) {
        "How many vessels at highest risk are listed; 0: vessels are not screened. Risk is the hoop strain at "
        "the lumen over the wall's critical stretch.",
        "", Range::between(0, 10000)},
-      {"screening.critical_stretch", &p.critical_stretch, "1", "0.25",
-       "Critical stretch of a wall that is not weak.", "Table 2", Range::positive()},
+      only_with({"screening.top", {}},
+                {"screening.critical_stretch", &p.critical_stretch, "1", "0.25",
+                 "Critical stretch of a wall that is not weak.", "Table 2", Range::positive()}),
   };
 }
 

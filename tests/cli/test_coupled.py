@@ -207,11 +207,15 @@ class Coupled(CoupledCase):
         with h5py.File(self.path / "whole/particles.h5") as a, h5py.File(self.path / "rest/particles_from_000130.h5") as b:
             for field in ("position", "velocity", "damage"):
                 self.assertTrue((a[f"{field}/000200"][:] == b[f"{field}/000200"][:]).all(), field)
-        # The geometry is the network's, and a checkpoint is of one body.
-        self.write({"v.csv": VESSELS.replace(",6,0.75", ",7,0.75")})
+        # The network's files say what the load is, and the geometry: a checkpoint is of one body.
+        self.write({"j.csv": JUNCTIONS.replace("heart,-100,0,0,200", "heart,-100,0,0,230")})
+        other = self.rhexis("run", "rest.toml", "-o", "other", "--set", "time.end=1 ms", *more)
+        self.assertEqual(other.returncode, 0, other.stderr)
+        self.assertIn("warning: the schedule had ", other.stderr)
+        self.write({"j.csv": JUNCTIONS, "v.csv": VESSELS.replace(",6,0.75", ",7,0.75")})
         refused = self.rhexis("run", "rest.toml", "-o", "x", *more)
         self.assertEqual(refused.returncode, 2, refused.stderr)
-        self.assertIn("another body", refused.stderr)
+        self.assertIn("another body: vessel.length was", refused.stderr)
         self.assertFalse((self.path / "x").exists())
 
 

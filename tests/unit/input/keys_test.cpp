@@ -46,9 +46,12 @@ TEST(Keys, SayWhatIsRequiredAndWhereItIsFrom) {
 
 TEST(Keys, SayWhereTheyHaveNoEffect) {
   Sample sample;
-  const std::string text = describe_keys(sample.parameters(), "load");
-  EXPECT_NE(text.find("Pressure over time. Only with load.schedule = \"table\".\n"), std::string::npos)
-      << text;
+  const auto expect = [&](const char* section, const std::string& line) {
+    const std::string text = describe_keys(sample.parameters(), section);
+    EXPECT_NE(text.find(line + "\n"), std::string::npos) << text;
+  };
+  expect("load", "Pressure over time. Only with load.schedule = \"table\".");
+  expect("output", "Steps between outputs. Only with time.step.");
 }
 
 TEST(Keys, EverySectionAndKeyIsThereInOrder) {

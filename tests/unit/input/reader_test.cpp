@@ -95,6 +95,8 @@ TEST(Reader, WarnsOfKeysWithoutEffect) {
                 R"(load.schedule = "ramp", only with "table")",
                 R"(a.toml:24: output.probes = ["0 mm", "15 mm"]: has no effect where insitu.movie = false, )"
                 R"(only with true)"}));
+  EXPECT_EQ(read_text_into(sample, "[vessel]\ninner_radius = \"1 mm\"\n[output]\nevery_steps = 3\n").warnings,
+            std::vector<std::string>{"a.toml:4: output.every_steps = 3: has no effect without time.step"});
   // Defaults are nobody's mistake.
   EXPECT_TRUE(read_text_into(sample, "[vessel]\ninner_radius = \"1 mm\"\n").warnings.empty());
   EXPECT_TRUE(read_text_into(sample, everything, {"insitu.movie=true"}).warnings.empty());
