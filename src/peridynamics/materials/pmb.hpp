@@ -64,15 +64,18 @@ struct Pmb {
     return hn::Max(hn::Add(hn::Set(d, Real{1}), t), hn::Set(d, Real(1e-6)));
   }
 
-  /// g(t), lane by lane. In single precision the root is approximate and then corrected to third order by its
-  /// own residual, in a form that keeps the accuracy of small t: g is within 1e-6 |g| + 5e-11.
+  /// g(t), lane by lane, and exactly 0 for t = 0: a wall at rest pulls at nothing. In single precision with
+  /// AVX-512, whose approximate root of 1 is 1, the root is approximate and then corrected to third order by
+  /// its own residual, in a form that keeps the accuracy of small t: g is within 1e-6 |g| + 5e-11. Others'
+  /// approximate roots are coarser, and a root and a division cost them little more.
   template <class D, class V>
   static HWY_INLINE V force_factor(D d, V t) {
     namespace hn = hwy::HWY_NAMESPACE;
     using Real = hn::TFromD<D>;
     const V one = hn::Set(d, Real{1});
     const V a = squared_length(d, t);
-    if constexpr (std::is_same_v<Real, double>) {
+    constexpr bool approximate = std::is_same_v<Real, float> && HWY_TARGET <= HWY_AVX3;
+    if constexpr (!approximate) {
       return hn::Div(t, hn::Add(a, hn::Sqrt(a)));
     } else {
       const V r = hn::ApproximateReciprocalSqrt(a);
