@@ -59,9 +59,7 @@ class DistributedTier : public NetworkTier {
     if (flow.iterations > 0) s.iterations = flow.iterations;
     s.highest_reynolds =
         comm_.all_reduce(highest_reynolds_number(part_.local, flow, mechanics_, {}), parallel::Reduce::max);
-    const auto [low, high] = extremes_of(flow.pressure);
-    check_flow(s,
-               {comm_.all_reduce(low, parallel::Reduce::min), comm_.all_reduce(high, parallel::Reduce::max)});
+    check_flow(s, extremes_of_all(flow.pressure));
     add_weight(part_.local, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
     for (std::size_t i = 0; i < queried_.size(); ++i) {
@@ -159,9 +157,15 @@ class DistributedTier : public NetworkTier {
     comm_.all_reduce(sums, parallel::Reduce::sum);
     s.volume = sums[0];
     s.surface = sums[1];
-    const auto [low, high] = extremes_of(flow.pressure);
-    s.lowest_pressure = comm_.all_reduce(low, parallel::Reduce::min);
-    s.highest_pressure = comm_.all_reduce(high, parallel::Reduce::max);
+    const auto [low, high] = extremes_of_all(flow.pressure);
+    s.lowest_pressure = low;
+    s.highest_pressure = high;
+  }
+
+  /// Over all ranks.
+  std::array<double, 2> extremes_of_all(const std::vector<double>& pressure) const {
+    const auto [low, high] = extremes_of(pressure);
+    return {comm_.all_reduce(low, parallel::Reduce::min), comm_.all_reduce(high, parallel::Reduce::max)};
   }
 
   /// By the rank that has the vessel, told to all.
