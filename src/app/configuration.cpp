@@ -11,6 +11,7 @@
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/units.hpp"
+#include "network/network_file.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
@@ -20,6 +21,16 @@
 
 namespace rhexis::app {
 namespace {
+
+/// What `check` finds wrong is said of that key.
+template <class Check>
+void check_key(const char* key, const Check& check) {
+  try {
+    check();
+  } catch (const InputError& error) {
+    throw InputError(error.what(), key);
+  }
+}
 
 std::string read_on_root(const std::string& file, parallel::Communicator comm) {
   std::string text, error;
@@ -236,15 +247,9 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
   if (n.source == "file") {
     if (!n.weakness.subtrees.empty())
       throw InputError("only a tree has subtrees; name the vessels", "weakness.subtrees");
-    if (n.files.empty() || n.files.size() > 2) {
-      throw InputError("name one VTP or JSON file, or two CSV files (junctions, vessels)", "network.files");
-    }
+    check_key("network.files", [&] { network::format_of(n.files); });
     if (n.tier == "implicit") throw InputError("only a tree can be implicit", "network.tier");
-    try {
-      input::to_si("1 " + n.file_length_unit, "m");
-    } catch (const InputError& error) {
-      throw InputError(error.what(), "network.file_length_unit");
-    }
+    check_key("network.file_length_unit", [&] { input::to_si("1 " + n.file_length_unit, "m"); });
     for (const input::ResolvedValue& given : c.resolved.values) {
       const bool of_trees = input::section_of(given.key) == "tree" || given.key == "flow.inlet_pressure" ||
                             given.key == "flow.outlet_pressure" || given.key == "flow.inlet_flow";
@@ -260,11 +265,7 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
   hemodynamics::tree_boundary(c.hemodynamics);
   const network::TreePair tree(c.tree);
   const auto check_path = [&](const std::string& path, const char* key) {
-    try {
-      tree.id_of(path);
-    } catch (const InputError& error) {
-      throw InputError(error.what(), key);
-    }
+    check_key(key, [&] { tree.id_of(path); });
   };
   for (const std::string& vessel : n.query) check_path(vessel, "network.query");
   network::WallVariation(n.weakness).mark_in_tree(n.weakness, c.tree.generations);

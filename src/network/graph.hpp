@@ -9,6 +9,9 @@
 
 namespace rhexis::network {
 
+/// m; a radius, length or wall beyond it is in the wrong unit.
+constexpr double largest_measure = 100;
+
 enum class VesselKind : std::uint8_t { artery = 0, vein = 1, unknown = 2 };
 
 /// Arrays over J junctions and V vessels; those marked optional are empty where nobody knows their values.

@@ -82,9 +82,9 @@ void NetworkBuilder::add(const VesselRow& row, const std::string& where) {
   if (from == to) refuse(where, "vessel " + row.id + " leads from junction " + row.from + " to itself");
   const auto positive = [&](const char* what, std::optional<double> value) {
     if (!value) refuse(where, std::string(what) + " of vessel " + row.id + " is missing");
-    if (!(*value > 0 && std::isfinite(*value))) {
+    if (!(*value > 0 && *value <= largest_measure)) {
       refuse(where, std::string(what) + " of vessel " + row.id + " is " + text(*value) +
-                        " m: must be greater than 0 and finite");
+                        " m: must be greater than 0 m and at most " + text(largest_measure) + " m");
     }
     return *value;
   };

@@ -22,17 +22,25 @@ std::string read_network_text(const std::filesystem::path& file) {
   return text;
 }
 
+NetworkFormat format_of(const std::vector<std::string>& files) {
+  const auto extension = [&](std::size_t i) { return std::filesystem::path(files[i]).extension().string(); };
+  if (files.size() == 2 && extension(0) == ".csv" && extension(1) == ".csv") return NetworkFormat::csv;
+  if (files.size() == 1 && extension(0) == ".json") return NetworkFormat::json;
+  if (files.size() == 1 && extension(0) == ".vtp") return NetworkFormat::vtp;
+  throw InputError("name one .json or .vtp file, or two .csv files: first junctions, then vessels");
+}
+
 BoundedGraph read_network(const std::vector<std::string>& files, const std::string& vtp_length_unit,
                           const ToSi& to_si) {
-  const auto extension = [&](std::size_t i) { return std::filesystem::path(files[i]).extension().string(); };
-  if (files.size() == 2 && extension(0) == ".csv" && extension(1) == ".csv") {
-    return read_csv_network(files[0], files[1], to_si);
+  switch (format_of(files)) {
+    case NetworkFormat::csv:
+      return read_csv_network(files[0], files[1], to_si);
+    case NetworkFormat::json:
+      return read_json_network(files[0], to_si);
+    case NetworkFormat::vtp:
+      break;
   }
-  if (files.size() == 1 && extension(0) == ".json") return read_json_network(files[0], to_si);
-  if (files.size() == 1 && extension(0) == ".vtp") {
-    return read_vtp_network(files[0], to_si("1 " + vtp_length_unit, "m"));
-  }
-  throw InputError("a network is one .json or .vtp file, or two .csv files: first junctions, then vessels");
+  return read_vtp_network(files[0], to_si("1 " + vtp_length_unit, "m"));
 }
 
 }  // namespace rhexis::network

@@ -28,7 +28,12 @@ BoundedGraph read_csv_network(const std::filesystem::path& junctions, const std:
                               const ToSi& to_si);
 BoundedGraph read_json_network(const std::filesystem::path& file, const ToSi& to_si);
 
-/// By number and extensions of the files. `vtp_length_unit`: of lengths in a VTP file, e.g. "mm".
+enum class NetworkFormat { csv, json, vtp };
+
+/// By number and extensions of the files. Throws InputError where they are no network's.
+NetworkFormat format_of(const std::vector<std::string>& files);
+
+/// `vtp_length_unit`: of lengths in a VTP file, e.g. "mm".
 BoundedGraph read_network(const std::vector<std::string>& files, const std::string& vtp_length_unit,
                           const ToSi& to_si);
 

@@ -91,6 +91,20 @@ void Reading::add_vessel(std::size_t line, std::span<const std::size_t> run) {
     graph.generation.push_back(static_cast<std::int8_t>(whole_number(*generation_, line, -128, 127)));
 }
 
+void Reading::check_measures() const {
+  const Graph& graph = result_.graph;
+  const auto check = [&](const char* name, const std::vector<double>& values) {
+    const auto found = std::ranges::find_if(values, [](double value) { return !(value <= largest_measure); });
+    if (found == values.end()) return;
+    fail_at_cell(line_[static_cast<std::size_t>(found - values.begin())],
+                 fmt::format("{} is {} m, above {} m: is network.file_length_unit right?", name, *found,
+                             largest_measure));
+  };
+  check("radius", graph.radius);
+  check("length", graph.length);
+  check("wall thickness", graph.wall_thickness);
+}
+
 double Reading::whole_number(const Array& array, std::size_t line, double low, double high) const {
   const double value = array.values[line];
   if (value >= low && value <= high && value == std::floor(value)) return value;

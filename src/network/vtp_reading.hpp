@@ -28,6 +28,7 @@ class Reading {
     find_conditions();
     count_visits();
     for (std::size_t l = 0; l < lines_.lines(); ++l) add_line(l);
+    check_measures();
     number_junctions();
     name_vessels();
     return std::move(result_);
@@ -71,6 +72,7 @@ class Reading {
   bool constant_radius(std::span<const std::size_t> run) const;
   double span_length(std::span<const std::size_t> run) const;
   void add_vessel(std::size_t line, std::span<const std::size_t> run);
+  void check_measures() const;
   double whole_number(const Array& array, std::size_t line, double low, double high) const;
   void number_junctions();
   void name_vessels();

@@ -175,8 +175,9 @@ ParameterList declare(Parameters& p) {
                                               "Share of the stable time step that \"auto\" takes.",
                                               "",
                                               {.lower = 0, .upper = 1, .lower_open = true}}),
-      {"time.allow_unstable", &p.allow_unstable, "", "false",
-       "Take a time.step above the stable one all the same: to see where instability begins.", ""},
+      only_with({"time.step", {}},
+                {"time.allow_unstable", &p.allow_unstable, "", "false",
+                 "Take a time.step above the stable one all the same: to see where instability begins.", ""}),
   };
   const ParameterList law = declare(p.law);  // with the other keys of its section
   all.insert(std::ranges::find(all, "discretisation.cross_section", &Parameter::key), law.begin(), law.end());

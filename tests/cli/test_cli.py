@@ -7,6 +7,7 @@ import calendar
 import csv
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -321,6 +322,30 @@ class Cli(unittest.TestCase):
         self.assertIn(told, other.stderr)
         jump = "the schedule had 178.5 kPa at step 150, and now has 150 kPa"
         self.assertEqual(self.record("other")["warnings"], [told, jump])
+
+    def test_keys_that_depend_on_another_name_one_that_takes_such_values(self):
+        pages = {}  # key: all that is said of it, in one line
+        for line in self.rhexis("keys").stdout.splitlines():
+            if match := re.match(r"\[+(\w+)\]", line):
+                section = match[1]
+            elif match := re.match(r"  (\w+) +(.*)", line):
+                key = f"{section}.{match[1]}"
+                pages[key] = match[2]
+            elif pages and line.startswith(" " * 10):
+                pages[key] += " " + line.strip()
+        dependent = 0
+        for key, page in pages.items():
+            match = re.search(r"Only with ([\w.]+\w)(?: = (.+?))?\.(?: \(|$)", page)
+            self.assertEqual(match is not None, "Only with" in page, (key, page))
+            if match is None:
+                continue
+            dependent += 1
+            self.assertIn(match[1], pages, key)
+            allowed = re.search(r"allowed: (.*)", pages[match[1]])
+            for value in match[2].split(" or ") if match[2] else []:
+                known = value in ("true", "false") or (allowed and value in allowed[1]) or f"default {value}" in pages[match[1]]
+                self.assertTrue(known, f"{key}: {match[1]} is never {value}")
+        self.assertGreater(dependent, 20)
 
     def test_the_record_tells_how_to_run_it_again(self):
         self.write(GOOD)

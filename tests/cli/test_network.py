@@ -69,6 +69,7 @@ WRONG = [
     ("path too long", tree("query", 'query = ["vein.000000000000"]'), ["network.query", "11 steps"]),
     ("acceleration of two components", tree("outlet_pressure", 'outlet_pressure = "5 mmHg"\nacceleration = ["1 m/s2", "0 m/s2"]'), ["flow.acceleration", "three"]),
     ("phase separation without a graph", TREE + "[blood]\nphase_separation = true\n", ["blood.phase_separation", "explicit"]),
+    ("one file of two", TREE.replace("[network]", '[network]\nsource = "file"\nfiles = ["j.csv"]'), ["network.files", "j.csv", "two .csv"]),
     ("files of a tree", TREE.replace("[network]", '[network]\nfiles = ["j.csv"]'), ["network.files", "source"]),
     ("haematocrit of one", TREE + "[blood]\nhaematocrit = 1\n", ["blood.haematocrit"]),
     ("huge explicit tree", tree("generations", "generations = 34").replace("[network]", '[network]\ntier = "explicit"'), ["network.tier", "implicit"]),

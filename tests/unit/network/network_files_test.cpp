@@ -140,6 +140,7 @@ TEST_F(NetworkFiles, CsvMistakes) {
       {junctions, "id,from,to,radius [um],diameter [um]\n", {"v.csv:1", "radius and diameter"}},
       {junctions, header + "1,a,b,0\n", {"v.csv:2", "radius of vessel 1", "greater than 0"}},
       {junctions, header + "1,a,b,-5\n", {"v.csv:2", "radius", "-5e-06"}},
+      {junctions, header + "1,a,b,1e9\n", {"v.csv:2", "radius of vessel 1 is 1000 m", "at most 100 m"}},
       {junctions, header + "1,a,b,inf\n", {"v.csv:2", "radius = inf"}},
       {junctions, header + "1,a,b,\n", {"v.csv:2", "radius of vessel 1 is missing"}},
       {junctions, header + "1,a,a,5\n", {"v.csv:2", "to itself"}},

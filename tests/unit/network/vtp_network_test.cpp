@@ -121,6 +121,8 @@ TEST_F(VtpNetwork, Mistakes) {
   refused(good.substr(0, good.size() / 2), {"n.vtp"});
   refused(polydata(2, 1, two, "0 1", "2", "", array("thickness", "1")), {"radius", "thickness"});
   refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "-1")), {"cell 0", "radius", "-1"});
+  refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "1e8")),
+          {"cell 0", "radius", "above 100 m", "network.file_length_unit"});
   refused(polydata(2, 1, two, "0 0", "2", "", array("radius", "1")), {"cell 0"});
   refused(polydata(2, 1, two, "0 7", "2", "", array("radius", "1")), {"n.vtp"});
   refused(polydata(2, 0, two, "", "", "", ""), {"line"});
