@@ -32,6 +32,19 @@ void check_key(const char* key, const Check& check) {
   }
 }
 
+/// The key's value where the user gave one, else null.
+const input::ResolvedValue* given(const Configuration& c, const std::string& key) {
+  const auto value = std::ranges::find(c.resolved.values, key, &input::ResolvedValue::key);
+  return value != c.resolved.values.end() && value->origin != "default" ? &*value : nullptr;
+}
+
+/// Warns of a key that was given and `where` this is so does nothing; conditions that the declarations of
+/// keys cannot state.
+void no_effect(Configuration& c, const std::string& key, const std::string& where) {
+  if (const input::ResolvedValue* value = given(c, key))
+    c.warnings.push_back(value->place + ": has no effect " + where);
+}
+
 std::string read_on_root(const std::string& file, parallel::Communicator comm) {
   std::string text, error;
   if (comm.is_root()) {
@@ -218,6 +231,7 @@ void resolve_vessel(Configuration& c) {
   c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
   settle_time_step(c);
   if (c.is_ensemble()) return;
+  if (c.output.fields.empty()) no_effect(c, "output.precision", "without output.fields");
   c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
 }
 
@@ -250,14 +264,21 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
     check_key("network.files", [&] { network::format_of(n.files); });
     if (n.tier == "implicit") throw InputError("only a tree can be implicit", "network.tier");
     check_key("network.file_length_unit", [&] { input::to_si("1 " + n.file_length_unit, "m"); });
-    for (const input::ResolvedValue& given : c.resolved.values) {
-      const bool of_trees = input::section_of(given.key) == "tree" || given.key == "flow.inlet_pressure" ||
-                            given.key == "flow.outlet_pressure" || given.key == "flow.inlet_flow";
-      if (of_trees && given.origin != "default")
-        throw InputError("says something of a tree; of a network from files, the files say it", given.key);
+    for (const input::ResolvedValue& value : c.resolved.values) {
+      const bool of_trees = input::section_of(value.key) == "tree" || value.key == "flow.inlet_pressure" ||
+                            value.key == "flow.outlet_pressure" || value.key == "flow.inlet_flow";
+      if (of_trees && given(c, value.key))
+        throw InputError("says something of a tree; of a network from files, the files say it", value.key);
     }
+    no_effect(c, "network.statistics", "on a network from files, whose vessels have no generations");
+    if (network::format_of(n.files) != network::NetworkFormat::vtp)
+      no_effect(c, "network.file_length_unit", "on CSV and JSON files, which tell their units");
     find_files(n.files, "network.files", "network file", c.file, comm);
     return;
+  }
+  if (n.tier == "explicit" || n.tier == "distributed") {
+    for (const char* key : {"network.statistics", "network.shown_subtree"})
+      no_effect(c, key, "with network.tier = \"" + n.tier + "\", only with \"implicit\"");
   }
   if (!n.files.empty())
     throw InputError("files are read only where network.source = \"file\"", "network.files");
@@ -291,11 +312,11 @@ void resolve_coupling(Configuration& c) {
     throw InputError("longer than the run, time.end = " + quantity(c.vessel.end_time, "s"),
                      "coupling.window");
   if (p.mode == "two_way") {
-    const auto venting = std::ranges::find(c.resolved.values, "load.venting", &input::ResolvedValue::key);
-    if (c.vessel.venting != "none" && venting->origin != "default")
+    if (c.vessel.venting != "none" && given(c, "load.venting"))
       throw InputError("not with coupling.mode = \"two_way\", where the network says how the pressure falls",
                        "load.venting");
     c.vessel.venting = "none";
+    no_effect(c, "load.supply_area", "with coupling.mode = \"two_way\": the network supplies the blood");
   }
   if (p.compression_from && p.compression_to && *p.compression_from >= *p.compression_to)
     throw InputError("must be above body.compression_from", "body.compression_to");

@@ -57,14 +57,19 @@ struct Parameter {
   /// Of a section that may stand any number of times, [[section]]: `target` is a vector<double>* that gets
   /// one number from each.
   bool repeated = false;
-  Condition only_with = {};  ///< the key has no effect elsewhere; without a key: it always has
+  std::vector<Condition> only_with = {};  ///< the key has no effect unless one of them holds; none: always
 };
 
 using ParameterList = std::vector<Parameter>;
 
-inline Parameter only_with(Condition condition, Parameter parameter) {
-  parameter.only_with = std::move(condition);
+/// `parameter`, which has no effect unless one of `conditions` holds.
+inline Parameter only_with_one_of(std::vector<Condition> conditions, Parameter parameter) {
+  parameter.only_with = std::move(conditions);
   return parameter;
+}
+
+inline Parameter only_with(Condition condition, Parameter parameter) {
+  return only_with_one_of({std::move(condition)}, std::move(parameter));
 }
 
 }  // namespace rhexis

@@ -92,6 +92,15 @@ std::string describe(const Range& range, std::string_view unit) {
   return lower + (!lower.empty() && !upper.empty() ? " and " : "") + upper;
 }
 
+std::string describe(const std::vector<Condition>& one_of) {
+  std::string text;
+  for (const auto& [key, values] : one_of) {
+    text += text.empty() ? "" : values.empty() ? " or " : ", or ";
+    text += values.empty() ? key : fmt::format("{} = {}", key, fmt::join(values, " or "));
+  }
+  return text;
+}
+
 std::string describe_type(const Parameter& parameter) {
   return std::visit(TypeName{parameter.unit}, parameter.target);
 }

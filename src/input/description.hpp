@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/parameter.hpp"
 
@@ -16,6 +17,10 @@ std::string describe_type(const Parameter& parameter);
 
 /// The allowed values: a range, choices, "auto"; empty where anything of the type is.
 std::string describe_allowed(const Parameter& parameter);
+
+/// What has to hold for a key to have an effect: `load.schedule = "step" or "ramp"`, a key alone where any
+/// value that is given will do, and all of them with "or" between.
+std::string describe(const std::vector<Condition>& one_of);
 
 /// A value that the key takes, as TOML.
 std::string example(const Parameter& parameter);

@@ -52,9 +52,8 @@ std::string describe_key(const Parameter& declared, const Columns& columns) {
   const Parameter parameter = as_one(declared);
   const std::size_t second = margin + columns.name + 2;
   const std::size_t third = second + columns.type + 2;
-  const Condition& with = parameter.only_with;
-  const std::string values = with.values.empty() ? "" : fmt::format(" = {}", fmt::join(with.values, " or "));
-  const std::string only = with.key.empty() ? "" : fmt::format(" Only with {}{}.", with.key, values);
+  const std::string only =
+      parameter.only_with.empty() ? "" : fmt::format(" Only with {}.", describe(parameter.only_with));
   const std::string source = parameter.source.empty() ? "" : fmt::format(" ({})", parameter.source);
   return fmt::format("{:{}}{:{}}  {:{}}  {}\n{:{}}{}\n", "", margin, name_of(parameter.key), columns.name,
                      describe_type(parameter), columns.type,

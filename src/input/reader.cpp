@@ -110,21 +110,29 @@ ParameterList with_tables(const Document& document, const ParameterList& declare
   return parameters;
 }
 
-/// Of a key that was given although another, as resolved, leaves it without effect; else empty.
+bool holds(const Condition& condition, const ResolvedValue& value) {
+  return condition.values.empty()
+             ? value.origin != "default"
+             : std::ranges::find(condition.values, written(value.given)) != condition.values.end();
+}
+
+/// Of a key that was given although others, as resolved, leave it without effect; else empty. Keys that this
+/// scene does not have say nothing.
 std::string warning_of(const Parameter& parameter, const ResolvedValue& value, const Resolved& resolved) {
-  const Condition& condition = parameter.only_with;
-  if (condition.key.empty() || value.origin == "default") return {};
-  const auto other = std::ranges::find(resolved.values, condition.key, &ResolvedValue::key);
-  if (other == resolved.values.end()) return {};
-  if (condition.values.empty()) {
-    return other->origin != "default"
-               ? ""
-               : fmt::format("{}: has no effect without {}", value.place, condition.key);
+  const std::vector<Condition>& one_of = parameter.only_with;
+  if (one_of.empty() || value.origin == "default") return {};
+  std::string as_they_are;
+  for (const Condition& condition : one_of) {
+    const auto other = std::ranges::find(resolved.values, condition.key, &ResolvedValue::key);
+    if (other == resolved.values.end() || holds(condition, *other)) return {};
+    if (condition.values.empty()) continue;
+    as_they_are += as_they_are.empty() ? "" : " and ";
+    as_they_are += fmt::format("{} = {}", condition.key, shortened(written(other->given)));
   }
-  const std::string is = written(other->given);
-  if (std::ranges::find(condition.values, is) != condition.values.end()) return {};
-  return fmt::format("{}: has no effect where {} = {}, only with {}", value.place, condition.key,
-                     shortened(is), fmt::join(condition.values, " or "));
+  if (as_they_are.empty()) return fmt::format("{}: has no effect without {}", value.place, describe(one_of));
+  const std::string needed =
+      one_of.size() > 1 ? describe(one_of) : fmt::format("{}", fmt::join(one_of.front().values, " or "));
+  return fmt::format("{}: has no effect where {}, only with {}", value.place, as_they_are, needed);
 }
 
 struct ToJson {

@@ -46,6 +46,8 @@ ParameterList declare(WallParameters& p) {
 }  // namespace
 
 ParameterList declare(Parameters& p) {
+  const std::vector<rhexis::Condition> a_graph{{"network.source", {"\"file\""}},
+                                               {"network.tier", {"\"explicit\"", "\"distributed\""}}};
   ParameterList all{
       {"network.source",
        &p.source,
@@ -76,21 +78,24 @@ ParameterList declare(Parameters& p) {
        "",
        {},
        {"auto", "implicit", "explicit", "distributed"}},
-      {"network.solver",
-       &p.solver,
-       "",
-       "\"auto\"",
-       "For what is left of an explicit network when dead ends, series and parallels are eliminated: nothing "
-       "may be "
-       "left (elimination), direct (ldlt), or conjugate gradients with a preconditioner.",
-       "",
-       {},
-       {"auto", "elimination", "ldlt", "approximate_cholesky", "jacobi", "amg"}},
-      {"network.imbalance", &p.imbalance, "1", "1e-10",
-       "Stop when blood is conserved at the worst junction to this share of the inflow.", "",
-       Range::between(1e-15, 1e-3)},
-      {"network.max_iterations", &p.max_iterations, "1", "20000", "Of an iterative solver.", "",
-       Range::at_least(1)},
+      only_with_one_of(a_graph,
+                       {"network.solver",
+                        &p.solver,
+                        "",
+                        "\"auto\"",
+                        "For what is left of an explicit network when dead ends, series and parallels are "
+                        "eliminated: nothing "
+                        "may be "
+                        "left (elimination), direct (ldlt), or conjugate gradients with a preconditioner.",
+                        "",
+                        {},
+                        {"auto", "elimination", "ldlt", "approximate_cholesky", "jacobi", "amg"}}),
+      only_with_one_of(a_graph,
+                       {"network.imbalance", &p.imbalance, "1", "1e-10",
+                        "Stop when blood is conserved at the worst junction to this share of the inflow.", "",
+                        Range::between(1e-15, 1e-3)}),
+      only_with_one_of(a_graph, {"network.max_iterations", &p.max_iterations, "1", "20000",
+                                 "Of an iterative solver.", "", Range::at_least(1)}),
       {"network.statistics", &p.statistics, "", "true",
        "Sweep over all vessels of a tree for statistics and histograms by generation.", ""},
       {"network.query", &p.query, "", "[]",

@@ -9,30 +9,35 @@
 namespace rhexis::peridynamics {
 
 ParameterList declare(Scatter& s) {
+  const std::vector<Condition> something_scatters{{"scatter.critical_stretch", {}},
+                                                  {"scatter.stiffness", {}}};
   return {
-      {"scatter.law",
-       &s.law,
-       "",
-       "\"lognormal\"",
-       "Distribution, over the wall, of the factors of mean 1 by which properties scatter.",
-       "",
-       {},
-       {"lognormal", "weibull"}},
+      only_with_one_of(something_scatters,
+                       {"scatter.law",
+                        &s.law,
+                        "",
+                        "\"lognormal\"",
+                        "Distribution, over the wall, of the factors of mean 1 by which properties scatter.",
+                        "",
+                        {},
+                        {"lognormal", "weibull"}}),
       {"scatter.critical_stretch", &s.critical_stretch, "1", "0",
        "Scatter of the critical stretch: coefficient of variation of its factor; 0 for none.", "",
        Range::between(0, 1)},
       {"scatter.stiffness", &s.stiffness, "1", "0",
        "The same of the stiffness, whose factor is independent of the critical stretch's.", "",
        Range::between(0, 1)},
-      {"scatter.correlation_length", &s.correlation_length, "m", "\"auto\"",
-       "Distance at which the correlation of a factor (before it is made lognormal or Weibull) has fallen "
-       "to 1/e; \"auto\" is half of the wall's thickness.",
-       "", Range::positive()},
-      {"scatter.seed", &s.seed, "1", "1",
-       "Which wall is drawn: a function of the seed and the place alone, whatever the resolution. Wall i of "
-       "an "
-       "ensemble takes seed + i.",
-       "", Range::at_least(0)},
+      only_with_one_of(something_scatters,
+                       {"scatter.correlation_length", &s.correlation_length, "m", "\"auto\"",
+                        "Distance at which the correlation of a factor (before it is made lognormal or "
+                        "Weibull) has fallen "
+                        "to 1/e; \"auto\" is half of the wall's thickness.",
+                        "", Range::positive()}),
+      only_with_one_of(something_scatters, {"scatter.seed", &s.seed, "1", "1",
+                                            "Which wall is drawn: a function of the seed and the place "
+                                            "alone, whatever the resolution. Wall i of "
+                                            "an ensemble takes seed + i.",
+                                            "", Range::at_least(0)}),
   };
 }
 

@@ -1,50 +1,16 @@
-"""The program as its users meet it: the command line, wrong inputs, interrupts, restarts.
+"""The program as its users meet it: the command line, wrong inputs, the record of a run.
 
-Run by ctest as: test_cli.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
+Run by ctest as: test_cli.py RHEXIS MPIRUN...
 """
 
 import calendar
-import csv
-import json
 import os
-import re
-import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-RHEXIS = sys.argv[1]
-MPIRUN = sys.argv[2:]
-
-# A vessel small enough to run in a second: 548 columns x 20 rows, no pictures.
-GOOD = """\
-[vessel]
-inner_radius = "1.5 mm"
-outer_radius = "2 mm"
-length = "2 mm"
-
-[discretisation]
-spacing = "100 um"
-
-[load]
-pressure = "238 kPa"
-ramp_time = "0.1 ms"
-venting = "none"
-
-[time]
-step = "500 ns"
-end = "50 us"
-
-[output]
-every_steps = 20
-"""
-
-
-def replaced(line_start, new):
-    return "\n".join(new if line.startswith(line_start) else line for line in GOOD.splitlines()) + "\n"
-
+from vessel_case import GOOD, MPIRUN, RHEXIS, VesselCase, replaced
 
 # name, input text, what the message must contain besides the file's name
 WRONG_INPUTS = [
@@ -113,32 +79,7 @@ WRONG_INPUTS = [
 ]
 
 
-class Cli(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="rhexis_cli_")
-        self.addCleanup(self.folder.cleanup)
-
-    def path(self, name):
-        return os.path.join(self.folder.name, name)
-
-    def write(self, text, name="vessel.toml"):
-        with open(self.path(name), "w", encoding="utf-8") as file:
-            file.write(text)
-        return name
-
-    def rhexis(self, *arguments, ranks=None):
-        launcher = [*MPIRUN, "-n", str(ranks)] if ranks else []
-        return subprocess.run([*launcher, RHEXIS, *arguments], cwd=self.folder.name, capture_output=True, text=True,
-                              timeout=300, stdin=subprocess.DEVNULL, check=False)
-
-    def record(self, folder):
-        with open(self.path(folder + "/run.json"), encoding="utf-8") as file:
-            return json.load(file)
-
-    def history(self, folder):
-        with open(self.path(folder + "/history.csv"), encoding="utf-8") as file:
-            return list(csv.DictReader(file))
-
+class Cli(VesselCase):
     # -- what it prints ------------------------------------------------------------------------------------------
 
     def test_version_help_and_keys(self):
@@ -269,84 +210,6 @@ class Cli(unittest.TestCase):
         self.assertTrue(self.record("out")["status"].startswith("failed: "))
         self.assertEqual([row["step"] for row in self.history("out")], ["0", "20", "40"])
 
-    def test_interrupt_saves_and_restart_goes_on_bit_by_bit(self):
-        import h5py
-        self.write(replaced("end", 'end = "1 ms"'))
-        self.assertEqual(self.rhexis("run", "vessel.toml", "-o", "whole", "--set", "time.end=200 us",
-                                     "--set", "output.checkpoint_every=150").returncode, 0)
-        go_on = self.rhexis("run", "vessel.toml", "-o", "rest", "--set", "time.end=200 us", "--restart",
-                            "whole/checkpoints/step_000150.h5", ranks=2)
-        self.assertEqual(go_on.returncode, 0, go_on.stderr)
-        self.assertEqual(self.history("whole")[-1], self.history("rest")[-1])
-        checkpoint = "whole/checkpoints/step_000150.h5"
-        self.assertIn(f"restart     from step 150 (75 us) of {checkpoint}", go_on.stdout)
-        record = self.record("rest")
-        self.assertEqual((record["checkpoint"], record["first_step"]), (checkpoint, 150))
-        self.assertEqual(record["warnings"], [])
-        self.assertEqual((self.record("whole")["checkpoint"], self.record("whole")["first_step"]), (None, None))
-        with h5py.File(self.path("whole/particles.h5")) as a, h5py.File(
-                self.path("rest/particles_from_000150.h5")) as b:
-            self.assertTrue((a["position/000400"][:] == b["position/000400"][:]).all())
-
-        process = subprocess.Popen([RHEXIS, "run", "vessel.toml", "-o", "cut"], cwd=self.folder.name,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        for _ in range(600):
-            if os.path.exists(self.path("cut/history.csv")) and len(self.history("cut")) > 2:
-                break
-            time.sleep(0.05)
-        process.send_signal(signal.SIGINT)
-        output, _ = process.communicate(timeout=120)
-        self.assertEqual(process.returncode, 130)
-        self.assertIn("--restart", output)
-        record = self.record("cut")
-        self.assertEqual(record["status"], "failed: interrupted")
-        last = int(self.history("cut")[-1]["step"])
-        self.assertEqual(last, record["results"]["steps"])
-        self.assertTrue(os.path.exists(self.path(f"cut/checkpoints/step_{last:06d}.h5")))
-        for file, more, why in (("absent.h5", [], "no such file"),
-                                (checkpoint, ["--set", "time.step=400 ns"], "time.step"),
-                                (checkpoint, ["--set", "vessel.length=3 mm"],
-                                 'another body: vessel.length was "2 mm", and now is "3 mm"'),
-                                (checkpoint, ["--set", "boundary.ends=free"], "boundary.ends"),
-                                (checkpoint, ["--set", "time.end=50 us"], "time.end")):
-            refused = self.rhexis("run", "vessel.toml", "-o", "x", "--restart", file, *more)
-            self.assertEqual(refused.returncode, 2, refused.stderr)
-            self.assertIn(file, refused.stderr)
-            self.assertIn(why, refused.stderr)
-            self.assertFalse(os.path.exists(self.path("x")))
-        # Another load is a user's right, and is told.
-        other = self.rhexis("run", "vessel.toml", "-o", "other", "--set", "time.end=80 us", "--restart", checkpoint,
-                            "--set", "load.pressure=200 kPa")
-        self.assertEqual(other.returncode, 0, other.stderr)
-        told = 'load.pressure was "238 kPa", and now is "200 kPa", from step 150 on'
-        self.assertIn(told, other.stderr)
-        jump = "the schedule had 178.5 kPa at step 150, and now has 150 kPa"
-        self.assertEqual(self.record("other")["warnings"], [told, jump])
-
-    def test_keys_that_depend_on_another_name_one_that_takes_such_values(self):
-        pages = {}  # key: all that is said of it, in one line
-        for line in self.rhexis("keys").stdout.splitlines():
-            if match := re.match(r"\[+(\w+)\]", line):
-                section = match[1]
-            elif match := re.match(r"  (\w+) +(.*)", line):
-                key = f"{section}.{match[1]}"
-                pages[key] = match[2]
-            elif pages and line.startswith(" " * 10):
-                pages[key] += " " + line.strip()
-        dependent = 0
-        for key, page in pages.items():
-            match = re.search(r"Only with ([\w.]+\w)(?: = (.+?))?\.(?: \(|$)", page)
-            self.assertEqual(match is not None, "Only with" in page, (key, page))
-            if match is None:
-                continue
-            dependent += 1
-            self.assertIn(match[1], pages, key)
-            allowed = re.search(r"allowed: (.*)", pages[match[1]])
-            for value in match[2].split(" or ") if match[2] else []:
-                known = value in ("true", "false") or (allowed and value in allowed[1]) or f"default {value}" in pages[match[1]]
-                self.assertTrue(known, f"{key}: {match[1]} is never {value}")
-        self.assertGreater(dependent, 20)
-
     def test_the_record_tells_how_to_run_it_again(self):
         self.write(GOOD)
         more = ["--set", "boundary.ends=axial_periodic", "--set", "boundary.end_length=0.5 mm", "--set", "time.end=20 us"]
@@ -376,42 +239,6 @@ class Cli(unittest.TestCase):
             ended = results("--set", f"time.end={moment} s")
             self.assertEqual(ended["simulated_s"], moment)
             self.assertEqual(ended[key], moment)
-
-    def test_many_spots_fit_into_a_checkpoint(self):
-        spots = "".join(f'[[spot]]\nposition = "1 mm"\nangle = "{0.5 * i} deg"\nradius = "0.2 mm"\nstiffness = 0.99\n'
-                        for i in range(700))
-        self.write(replaced("end", 'end = "20 us"') + spots)
-        for more in (["--set", "output.checkpoint_every=20"], ["--restart", "out/checkpoints/step_000020.h5"]):
-            result = self.rhexis("run", "vessel.toml", "-o", "out", *more)
-            self.assertEqual(result.returncode, 0, result.stderr)
-
-    def test_restart_draws_the_same_wall(self):
-        import h5py
-        import numpy
-        self.write(replaced("end", 'end = "200 us"') + '[material]\ncritical_stretch = 0.1\n'
-                   '[scatter]\ncritical_stretch = 0.1\nstiffness = 0.1\n'
-                   '[[spot]]\nposition = "1 mm"\nangle = "90 deg"\nradius = "0.5 mm"\nthickness = 0.5\n')
-        whole = self.rhexis("run", "vessel.toml", "-o", "whole", "--set", "output.checkpoint_every=150")
-        self.assertEqual(whole.returncode, 0, whole.stderr)
-        checkpoint = "whole/checkpoints/step_000150.h5"
-        go_on = self.rhexis("run", "vessel.toml", "-o", "rest", "--restart", checkpoint, ranks=2)
-        self.assertEqual(go_on.returncode, 0, go_on.stderr)
-        last, again = self.history("whole")[-1], self.history("rest")[-1]
-        self.assertGreater(int(last["broken_bonds"]), 100)
-        self.assertEqual(last, again)
-        with h5py.File(self.path("whole/particles.h5")) as a, h5py.File(
-                self.path("rest/particles_from_000150.h5")) as b:
-            damage = a["damage/000400"][:]
-            numpy.testing.assert_array_equal(damage, b["damage/000400"][:])
-            numpy.testing.assert_array_equal(a["position/000400"][:], b["position/000400"][:])
-        absent = int(numpy.isnan(damage).sum())
-        self.assertGreater(absent, 20)
-        self.assertEqual(self.record("whole")["results"]["particles"], damage.size - absent)
-        self.assertEqual(self.record("whole")["input"]["spot[1]"]["thickness"]["value"], 0.5)
-        for other in ("scatter.seed=2", "spot[1].thickness=0.6"):
-            refused = self.rhexis("run", "vessel.toml", "-o", "x", "--restart", checkpoint, "--set", other)
-            self.assertEqual(refused.returncode, 2, refused.stderr)
-            self.assertIn("another body", refused.stderr)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,128 @@
+// The keys of the whole program, which the folders declare apart from each other, against each other; and
+// what is said of keys that a scene leaves without effect.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/configuration.hpp"
+#include "input/catalogue.hpp"
+#include "input/document.hpp"
+#include "input/values.hpp"
+
+namespace rhexis::app {
+namespace {
+
+/// The warnings of an input of this text.
+std::vector<std::string> warnings_of(const std::string& text,
+                                     const std::vector<std::string>& overrides = {}) {
+  const parallel::Communicator world(MPI_COMM_WORLD);
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("rhexis_keys_" + world.broadcast(std::to_string(getpid())));
+  const std::string file = (folder / "scene.toml").string();
+  if (world.is_root()) {
+    std::filesystem::create_directories(folder);
+    std::ofstream(file) << text;
+  }
+  const auto warnings = read_configuration(file, overrides, world).warnings;
+  if (world.is_root()) std::filesystem::remove_all(folder);
+  return warnings;
+}
+
+std::vector<std::string> warnings_of_input(const std::string& name, const std::string& override) {
+  return read_configuration(RHEXIS_SOURCE_DIR "/inputs/" + name, {override},
+                            parallel::Communicator(MPI_COMM_WORLD))
+      .warnings;
+}
+
+/// One warning, of `key` and with `why`.
+void expect_no_effect(const std::vector<std::string>& warnings, const std::string& key,
+                      const std::string& why) {
+  ASSERT_EQ(warnings.size(), 1u) << key << (warnings.empty() ? "" : "\n" + warnings.back());
+  EXPECT_NE(warnings.front().find(key), std::string::npos) << warnings.front();
+  EXPECT_NE(warnings.front().find("has no effect"), std::string::npos) << warnings.front();
+  EXPECT_NE(warnings.front().find(why), std::string::npos) << warnings.front();
+}
+
+const std::string vessel = R"(
+[vessel]
+inner_radius = "1.5 mm"
+outer_radius = "2 mm"
+length = "2 mm"
+[discretisation]
+spacing = "100 um"
+[load]
+pressure = "100 kPa"
+[time]
+end = "50 us"
+)";
+
+const std::string tree = R"(
+[scene]
+model = "network"
+[tree]
+generations = 8
+root_radius = "2 mm"
+[flow]
+inlet_pressure = "100 mmHg"
+outlet_pressure = "5 mmHg"
+)";
+
+TEST(Keys, DependOnOthersThatThereAreAndValuesThatTheseTake) {
+  Configuration c;
+  const ParameterList all = declare(c);
+  int dependent = 0;
+  for (const Parameter& parameter : all) {
+    dependent += parameter.only_with.empty() ? 0 : 1;
+    for (const Condition& condition : parameter.only_with) {
+      const Parameter* other = input::find(all, condition.key);
+      ASSERT_NE(other, nullptr) << parameter.key << ": " << condition.key;
+      for (const std::string& value : condition.values)
+        EXPECT_NO_THROW(input::store(input::parse_value(value), *other)) << parameter.key << ": " << value;
+    }
+  }
+  EXPECT_GT(dependent, 30);
+}
+
+TEST(Keys, ThatHaveAnEffectAreNotWarnedOf) {
+  EXPECT_EQ(warnings_of(vessel), std::vector<std::string>{});
+  EXPECT_EQ(warnings_of(tree), std::vector<std::string>{});
+  EXPECT_EQ(warnings_of(vessel, {"scatter.stiffness=0.1", "scatter.seed=3", "scatter.law=weibull",
+                                 "scatter.correlation_length=0.3 mm", "output.precision=double"}),
+            std::vector<std::string>{});
+  EXPECT_EQ(warnings_of(tree, {"network.tier=explicit", "network.solver=amg", "network.imbalance=1e-9",
+                               "network.max_iterations=50"}),
+            std::vector<std::string>{});
+  EXPECT_EQ(warnings_of(tree, {"network.shown_subtree=artery.01", "network.statistics=false"}),
+            std::vector<std::string>{});
+  EXPECT_EQ(warnings_of(tree, {"weakness.subtrees=[\"artery.01\"]", "weakness.strength=0.3",
+                               "weakness.thickness=0.8", "weakness.thickness_spread=0.1", "weakness.seed=2"}),
+            std::vector<std::string>{});
+}
+
+TEST(Keys, WithoutEffectAreWarnedOf) {
+  for (const char* key : {"scatter.seed=3", "scatter.law=weibull", "scatter.correlation_length=0.3 mm"})
+    expect_no_effect(warnings_of(vessel, {key}), key,
+                     "without scatter.critical_stretch or scatter.stiffness");
+  expect_no_effect(warnings_of(vessel, {"output.precision=double", "output.fields=[]"}), "output.precision",
+                   "without output.fields");
+  for (const char* key : {"network.solver=amg", "network.imbalance=1e-9", "network.max_iterations=50"})
+    expect_no_effect(
+        warnings_of(tree, {key}), key,
+        "where network.source = \"tree\" and network.tier = \"auto\", only with network.source = "
+        "\"file\", or network.tier = \"explicit\" or \"distributed\"");
+  for (const char* key : {"network.statistics=false", "network.shown_subtree=artery.01"})
+    expect_no_effect(warnings_of(tree, {key, "network.tier=explicit"}), key, "only with \"implicit\"");
+  for (const char* key : {"weakness.strength=0.3", "weakness.thickness=0.8"})
+    expect_no_effect(warnings_of(tree, {key}), key, "without weakness.vessels or weakness.subtrees");
+  expect_no_effect(warnings_of(tree, {"weakness.seed=2"}), "weakness.seed",
+                   "without weakness.strength_spread");
+  for (const char* key : {"network.file_length_unit=mm", "network.statistics=false"})
+    expect_no_effect(warnings_of_input("own_network.toml", key), key, "files");
+  expect_no_effect(warnings_of_input("two_way.toml", "load.supply_area=1 mm2"), "load.supply_area",
+                   "the network supplies the blood");
+}
+
+}  // namespace
+}  // namespace rhexis::app
