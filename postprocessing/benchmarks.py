@@ -97,7 +97,7 @@ def bond_row(c):
     wall = f"{c['section']} {c['across']}, {c['rows']} rows" + (", scattered" if c["wall"] == "scattered" else "")
     damage = re.sub(r"(\d+)$", r" \1 %", c["damage"])
     return (wall, c["bonds"], c["law"], damage, c["threads"], number(c["bonds_per_s"], 1e-9), number(c["flop_per_s"], 1e-9),
-            number(c["ns_per_particle_step"]), percent(c["of_peak"]), percent(c.get("of_issue")))
+            number(c["ns_per_particle_step"]), percent(c["of_peak"]), percent(c.get("of_arithmetic")))
 
 
 def network_row(c):
@@ -124,7 +124,7 @@ def pictures_row(c):
 
 TABLES = (
     ("machine", ("peak", "threads", "median", "best", ""), machine_row),
-    ("bonds", ("wall", "bonds", "law", "damage", "threads", "Gbonds/s", "Gflop/s", "ns a particle and step", "of FMA peak", "of issue"), bond_row),
+    ("bonds", ("wall", "bonds", "law", "damage", "threads", "Gbonds/s", "Gflop/s", "ns a particle and step", "of FMA peak", "of arithmetic"), bond_row),
     ("network", ("tier", "network", "vessels", "threads", "million vessels/s", "ns a vessel", "of FMA peak (implicit), of memory (explicit)"), network_row),
     ("output", ("frame", "particles", "MB", "ms", "MB/s", "of plain writing (fields: of FMA peak)"), output_row),
     ("pictures", ("s a picture", "steps in that time", "ParaView's start, s", "threads"), pictures_row),

@@ -4,27 +4,20 @@
 // whatever the law),
 // ns a particle and step, and shares of two limits of this machine at that moment:
 // - of_peak: of its fused multiply-adds. The kernel cannot reach 1: most of its operations are not fused.
-// - of_issue: of the 512-bit operations that it can issue, taken as those of the loop of fused multiply-adds,
-//   which does nothing else (two a cycle on ports 0 and 5 of Intel's processors with AVX-512). Given where a
-//   bond's were counted: uniform PMB in single precision with 16 lanes.
+// - of_arithmetic: of what it can do of a bond's own arithmetic (bond_arithmetic.hpp). Of uniform PMB walls.
 #include <omp.h>
 
 #include <functional>
 #include <random>
 #include <set>
 
+#include "bench/bond_arithmetic.hpp"
 #include "bench/cases.hpp"
 #include "peridynamics/bond_kernel.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::bench {
 namespace {
-
-/// Micro-operations for one bond of 16 rows, both of its ends, on the two ports that 512-bit arithmetic has,
-/// from the disassembly of ColumnBody<Pmb, float>::sum (g++ 12, AVX-512): 29 arithmetic instructions, 15 of
-/// them fused, among them an approximate root that takes 3, and 3 of masks. Loads and stores have other
-/// ports.
-constexpr double issued_a_bond = 34;
 
 constexpr double flop_per_directed_bond = peridynamics::flop_per_bond / 2;
 
@@ -91,6 +84,7 @@ void run(benchmark::State& state, const Wall& wall, int threads) {
   set_state(*body, wall);
   std::int64_t evaluated = 0;
   const auto advance = [&](int steps) {
+    body->advance(0, 0);  // wakes threads and caches after the measurement of the peak
     const std::int64_t before = body->bond_evaluations();
     const double start = now(threads);
     for (int i = 0; i < steps; ++i) body->advance(0, 0);
@@ -101,9 +95,8 @@ void run(benchmark::State& state, const Wall& wall, int threads) {
   advance(1);  // touches all memory
   constexpr double least_seconds = 2e-3;
   const int steps = 1 + static_cast<int>(least_seconds / advance(1).seconds);
-  const auto peak = [&] {
-    return wall.bonds == "single" ? fma_rate<float>(threads) : fma_rate<double>(threads);
-  };
+  const bool single = wall.bonds == "single";
+  const auto peak = [&] { return single ? fma_rate<float>(threads) : fma_rate<double>(threads); };
   const Medians found = measure(state, peak, [&] { return advance(steps); });
   const auto particles = static_cast<double>(body->layout().local_count());
   state.counters["bonds_per_s"] = found.rate / flop_per_directed_bond;
@@ -111,9 +104,15 @@ void run(benchmark::State& state, const Wall& wall, int threads) {
   state.counters["ns_per_particle_step"] = 1e9 * found.seconds / (particles * steps);
   state.counters["particles"] = particles;
   state.counters["bonds_a_particle"] = static_cast<double>(evaluated) / (particles * steps);
-  const bool counted = hwy::HWY_NAMESPACE::MaxLanes(hwy::HWY_NAMESPACE::ScalableTag<float>()) == 16 &&
-                       wall.bonds == "single" && wall.law == "pmb" && !wall.scattered && wall.broken == 0;
-  if (counted) state.counters["of_issue"] = found.of_peak * 2 * issued_a_bond / peridynamics::flop_per_bond;
+  if (wall.law == "pmb" && !wall.scattered && wall.broken == 0) {
+    std::vector<double> limits;  // of of_peak
+    for (int i = 0; i < 5; ++i) {
+      const double bonds =
+          single ? bond_arithmetic_rate<float>(threads) : bond_arithmetic_rate<double>(threads);
+      limits.push_back(bonds * peridynamics::flop_per_bond / peak());
+    }
+    state.counters["of_arithmetic"] = found.of_peak / median(limits);
+  }
 }
 
 /// `wall` with something changed.

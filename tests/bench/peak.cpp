@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cstdint>
 #include <ctime>
-#include <numeric>
 #include <stdexcept>
 #include <vector>
 
@@ -24,28 +23,6 @@ double wall_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Of the calling thread.
-double processor_time() {
-  timespec t;
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-/// Sum over threads of the best rate of each; `burst(thread)` returns how much it did.
-template <class Burst>
-double best_rate(int threads, const Burst& burst) {
-  constexpr int bursts = 4;
-  std::vector<double> best(static_cast<std::size_t>(threads));
-  parallel::for_each_share(threads, best.size(), [&](int thread, std::size_t, std::size_t) {
-    for (int i = 0; i < bursts; ++i) {
-      const double start = processor_time(), amount = burst(thread);
-      best[static_cast<std::size_t>(thread)] =
-          std::max(best[static_cast<std::size_t>(thread)], amount / (processor_time() - start));
-    }
-  });
-  return std::accumulate(best.begin(), best.end(), 0.0);
-}
-
 /// Bytes of a cache as the C library knows it, or what is usual where it does not.
 std::size_t cache_bytes(int name, std::size_t usual) {
   const long bytes = sysconf(name);
@@ -53,6 +30,12 @@ std::size_t cache_bytes(int name, std::size_t usual) {
 }
 
 }  // namespace
+
+double processor_time() {
+  timespec t;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 double now(int threads) {
   return threads == 1 ? processor_time() : wall_time();

@@ -5,10 +5,33 @@
 // property of it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <numeric>
+#include <vector>
+
+#include "parallel/threads.hpp"
 
 namespace rhexis::bench {
+
+/// Seconds of processor of the calling thread.
+double processor_time();
+
+/// Sum over threads of the best rate of each; `burst(thread)` returns how much it did.
+template <class Burst>
+double best_rate(int threads, const Burst& burst) {
+  constexpr int bursts = 4;
+  std::vector<double> best(static_cast<std::size_t>(threads));
+  parallel::for_each_share(threads, best.size(), [&](int thread, std::size_t, std::size_t) {
+    double& mine = best[static_cast<std::size_t>(thread)];
+    for (int i = 0; i < bursts; ++i) {
+      const double start = processor_time(), amount = burst(thread);
+      mine = std::max(mine, amount / (processor_time() - start));
+    }
+  });
+  return std::accumulate(best.begin(), best.end(), 0.0);
+}
 
 /// Seconds. Of one thread those of the processor, which other programs do not lengthen; of several, which
 /// wait for each other, those of the clock on the wall.
