@@ -14,6 +14,8 @@ import numpy
 def read(path):
     """Columns by name; an empty value is not a number."""
     table = numpy.genfromtxt(path, delimiter=",", names=True, dtype=float)
+    if table.size == 0:
+        raise ValueError("no rows")
     return {name: numpy.atleast_1d(table[name]) for name in table.dtype.names}
 
 

@@ -59,8 +59,9 @@ class Table {
       if (line.empty() || line.front() == '#') continue;
       split(line);
       if (!names_.empty() && fields_.size() != names_.size()) {
-        throw InputError(fmt::format("{}: {} fields, but the header has {}: is the file cut short here?",
-                                     where(), fields_.size(), names_.size()));
+        throw InputError(fmt::format(
+            "{}: {} fields, but the header has {}: {}", where(), fields_.size(), names_.size(),
+            fields_.size() < names_.size() ? "is the file cut short here?" : "is there a comma too many?"));
       }
       return true;
     }

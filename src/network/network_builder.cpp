@@ -45,7 +45,8 @@ void NetworkBuilder::add(const JunctionRow& row, const std::string& where) {
     refuse(where, "junction " + row.id + " has a resistance; give the pressure behind it too");
   }
   if (row.resistance && *row.resistance < 0) {
-    refuse(where, "resistance = " + text(*row.resistance) + ": must be at least 0");
+    refuse(where, "resistance of junction " + row.id + " is " + text(*row.resistance) +
+                      " Pa s/m3: must be at least 0 Pa s/m3");
   }
   if (row.pressure) {
     network_.conditions.push_back(

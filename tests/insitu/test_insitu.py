@@ -385,6 +385,11 @@ class Afterwards(DriverTest):
             self.assertEqual(read(folder / "images" / "vessel_000050.png").shape, (720, 1280, 3))
             self.assertEqual(read(folder / "history.png").shape[1], 1080)
             self.assertGreater((folder / "movie.mp4").stat().st_size, 10_000)
+            # A run that was only begun has nothing to draw.
+            (folder / "history.csv").write_text((folder / "history.csv").read_text().splitlines()[0] + "\n")
+            result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("history.csv is not the history.csv of a run (no rows)", result.stderr)
 
 
 if __name__ == "__main__":
