@@ -11,6 +11,8 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "coupling/bleeding.hpp"
+#include "hemodynamics/poiseuille.hpp"
+#include "hemodynamics/viscosity.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/opening.hpp"
 
@@ -185,6 +187,13 @@ void NetworkCoupling::exchange(const Wall& wall) {
     end(wall.time_s);
     const coupling::VesselState now = coupling::bleed(*vessel_, wall.resistance_factor, hole);
     leak_ = wall.schedule * now.leak;
+    const hemodynamics::Viscosity& v = c_.hemodynamics.viscosity;
+    const double fastest = wall.schedule * std::max(std::abs(now.flow_from), std::abs(now.flow_to));
+    highest_reynolds_ =
+        std::max(highest_reynolds_,
+                 hemodynamics::reynolds_number(
+                     chosen_.radius, hemodynamics::apparent_viscosity(v, chosen_.radius, v.haematocrit),
+                     fastest, c_.hemodynamics.density));
     find_load({now.pressure_from, now.pressure_middle, now.pressure_to});
     for (double& p : load_.pressure) p = std::max(p, 0.0);
     worst_imbalance_ = std::max(worst_imbalance_, now.imbalance());
@@ -196,11 +205,12 @@ void NetworkCoupling::exchange(const Wall& wall) {
            << std::flush;
     if (!table_) throw RunError(table_path_.string() + ": cannot be written");
   });
-  double values[] = {load_.pressure[0], load_.pressure[1], load_.pressure[2], leak_};
+  double values[] = {load_.pressure[0], load_.pressure[1], load_.pressure[2], leak_, highest_reynolds_};
   if (!comm_.is_root()) std::fill(std::begin(values), std::end(values), 0.0);
   comm_.all_reduce(values, parallel::Reduce::sum);
   load_.pressure = {values[0], values[1], values[2]};
   leak_ = values[3];
+  highest_reynolds_ = values[4];
   schedule_ = wall.schedule;
 }
 
@@ -242,6 +252,7 @@ nlohmann::ordered_json NetworkCoupling::results() const {
                               {"net_pressure_at_end_Pa", nullptr},
                               {"leak_m3_s", nullptr},
                               {"leaked_m3", nullptr},
+                              {"highest_reynolds", nullptr},
                               {"max_imbalance", nullptr}};
   if (two_way()) {
     json["windows"] = windows_;
@@ -249,6 +260,7 @@ nlohmann::ordered_json NetworkCoupling::results() const {
     for (const double p : load_.pressure) at_end.push_back(schedule_ * p);
     json["leak_m3_s"] = leak_;
     json["leaked_m3"] = leaked_;
+    json["highest_reynolds"] = highest_reynolds_;
     json["max_imbalance"] = worst_imbalance_;
   }
   return json;

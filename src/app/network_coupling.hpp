@@ -56,6 +56,9 @@ class NetworkCoupling {
   /// Counts what leaks until then.
   void end(double time_s);
   double leak() const { return leak_; }  ///< m3/s, by the last exchange
+  /// Number, of the flow at the vessel's ends, by all exchanges; its viscosity with the haematocrit of all
+  /// blood.
+  double highest_reynolds() const { return highest_reynolds_; }
 
   /// Of a cascade, for the pictures.
   void set_event(std::size_t number) { event_ = number; }
@@ -88,7 +91,7 @@ class NetworkCoupling {
   std::size_t event_ = 0;
   long steps_per_window_ = 1, windows_ = 0;
   double leak_ = 0, leaked_ = 0, last_time_ = 0;  ///< m3/s, m3, s
-  double worst_imbalance_ = 0, schedule_ = 1;
+  double worst_imbalance_ = 0, schedule_ = 1, highest_reynolds_ = 0;
   double network_s_ = 0, exchange_s_ = 0;
   std::filesystem::path table_path_;
   std::ofstream table_;

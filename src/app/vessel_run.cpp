@@ -11,6 +11,7 @@
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "hemodynamics/poiseuille.hpp"
 #include "peridynamics/schedule.hpp"
 #include "peridynamics/surface_correction.hpp"
 
@@ -251,6 +252,14 @@ void VesselRun::exchange(long step) {
                        .opening = open_area_,
                        .resistance_factor = resistance_factor_});
   take_load();
+  const double reynolds = coupling_->highest_reynolds();
+  if (results_.rupture_onset_s && reynolds > hemodynamics::laminar_reynolds_number && !turbulence_was_said_) {
+    turbulence_was_said_ = true;
+    warn(
+        fmt::format("at {} the Reynolds number in the torn vessel reaches {:.0f}; above {:.0f} flow is not "
+                    "laminar: real resistances are higher than those of Eq. (9), and less leaks",
+                    quantity(time_at(step), "s"), reynolds, hemodynamics::laminar_reynolds_number));
+  }
 }
 
 void VesselRun::time_loop() {

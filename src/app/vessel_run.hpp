@@ -69,7 +69,7 @@ class VesselRun : private RunBase {
 
   std::int64_t start_bond_evaluations_ = 0;
   long first_step_ = 0, step_ = 0;
-  bool interrupted_ = false, crushing_was_said_ = false;
+  bool interrupted_ = false, crushing_was_said_ = false, turbulence_was_said_ = false;
   double open_area_ = 0;                 ///< m2
   double vent_now_ = 1, vent_next_ = 1;  ///< shares of the scheduled pressure, at t_n and t_{n+1}
   double least_vent_ = 1;

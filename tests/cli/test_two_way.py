@@ -3,11 +3,12 @@
 Run by ctest as: test_two_way.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
 """
 
+import json
 import math
 import sys
 import unittest
 
-from coupled_case import (ARTERY, BED, BLOOD_DENSITY, DISCHARGE, FEEDER, MMHG, TREE, TWO_WAY, VESSELS, CoupledCase, at_once,
+from coupled_case import (ARTERY, BED, BLOOD_DENSITY, BLOOD_VISCOSITY, DISCHARGE, FEEDER, MMHG, TREE, TWO_WAY, VESSELS, CoupledCase, at_once,
                           changed)
 
 TORN_TREE = changed(TREE, "vessel", 'vessel = "artery.0"\nmode = "two_way"\nwindow = "20 us"\nresolution = "paper"')
@@ -27,7 +28,8 @@ def bleeding(share, factor, opening, outside, weight):
     """The artery as a tube of two halves, with a hole between them, fed through the feeder and drained by the bed.
 
     `share` of all pressures acts; `factor` is on the artery's resistance; `outside` and `weight` (Eq. 7: tension and
-    compression; P_g) hold at its beginning, middle and end. Net pressures there, leak, inflow, outflow.
+    compression; P_g) hold at its beginning, middle and end. Net pressures there, leak, inflow, outflow, and the larger
+    flow at the artery's ends.
     """
     heart, vein = 200 * MMHG * share, 20 * MMHG * share
     outside, weight = [share * p for p in outside], [share * p for p in weight]
@@ -43,7 +45,7 @@ def bleeding(share, factor, opening, outside, weight):
     flows = (heart - p) / up, (vein - p) / down
     places = heart - flows[0] * FEEDER, p, vein - flows[1] * BED
     net = [max(p + g - o, 0) for p, g, o in zip(places, weight, outside)]  # collapse is not modelled
-    return net, leak(p), sum(max(q, 0) for q in flows), sum(max(-q, 0) for q in flows)
+    return net, leak(p), sum(max(q, 0) for q in flows), sum(max(-q, 0) for q in flows), max(map(abs, flows))
 
 
 class TwoWay(CoupledCase):
@@ -57,10 +59,12 @@ class TwoWay(CoupledCase):
         self.assertEqual(len(rows), 81)
         closed = bleeding(1, 1, 0, *surroundings)[0]
         largest, factor, leaked, before = max(closed), 1, 0, None
+        reynolds = {}  # by time
         for row, wall in zip(rows, history):
             share = 0.5 - 0.5 * math.cos(math.pi * min(row["time_s"] / 0.8e-3, 1))
             self.assertAlmostEqual(row["schedule"], share, delta=1e-14)
-            net, leak, inflow, outflow = bleeding(share, row["resistance_factor"], row["opening_m2"], *surroundings)
+            net, leak, inflow, outflow, fastest = bleeding(share, row["resistance_factor"], row["opening_m2"], *surroundings)
+            reynolds[row["time_s"]] = 2 * BLOOD_DENSITY * fastest / (math.pi * 1.5e-3 * BLOOD_VISCOSITY)
             found = [row[f"net_pressure_{place}_Pa"] for place in ("from", "middle", "to")]
             for a, b in zip(found, net):
                 self.assertAlmostEqual(a, b, delta=1e-9 * 200 * MMHG, msg=row)
@@ -88,6 +92,11 @@ class TwoWay(CoupledCase):
         self.assertEqual((c["windows"], c["mode"], c["leak_m3_s"]), (81, "two_way", rows[-1]["leak_m3_s"]))
         self.assert_close(c["leaked_m3"], leaked, 1e-12)
         self.assertEqual(c["max_imbalance"], max(row["imbalance"] for row in rows))
+        self.assert_close(c["highest_reynolds"], max(reynolds.values()), 1e-9)
+        warnings = json.loads((self.path / "out/run.json").read_text())["warnings"]
+        [warning] = [text for text in warnings if "Reynolds" in text]
+        first = next(time for time, number in reynolds.items() if number > 2300)
+        self.assertIn(f"at {1e3 * first:.4g} ms the Reynolds number in the torn vessel reaches {reynolds[first]:.0f};", warning)
         self.assertEqual(c["net_pressure_at_end_Pa"], found)
         for first, expected in zip(c["net_pressure_Pa"], closed, strict=True):
             self.assertAlmostEqual(first, expected, delta=1e-7)
