@@ -141,8 +141,14 @@ void check(const Configuration& c, parallel::Communicator comm) {
     solved.network.statistics = false;
     Console console(comm.is_root(), false);
     console.line("Solving the network, which says what the wall and its load are:");
-    const NetworkCoupling coupling(solved, comm, console);
-    check_wall(solved, comm, [&](Console& to) { coupling.say_header(to); });
+    NetworkCoupling coupling(solved, comm, console);
+    if (coupling.at_rest()) {
+      console.line(
+          fmt::format("{} is valid. No vessel's risk is above cascade.risk_limit = {}: no wall is simulated.",
+                      c.file, text(c.coupling.risk_limit)));
+      return;
+    }
+    check_wall(coupling.hand_over(), comm, [&](Console& to) { coupling.say_header(to); });
   } else {
     check_wall(c, comm, {});
   }

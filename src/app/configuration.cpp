@@ -312,6 +312,9 @@ void resolve_coupling(Configuration& c) {
     throw InputError("longer than the run, time.end = " + quantity(c.vessel.end_time, "s"),
                      "coupling.window");
   if (p.mode == "two_way") {
+    if (c.output.checkpoint_every > 0)
+      throw InputError("checkpoints do not hold the state of two-way coupling; 0 is allowed",
+                       "output.checkpoint_every");
     if (c.vessel.venting != "none" && given(c, "load.venting"))
       throw InputError("not with coupling.mode = \"two_way\", where the network says how the pressure falls",
                        "load.venting");

@@ -34,6 +34,7 @@ class CascadeRun : private RunBase {
     say_title(console_, c_);
     std::optional<NetworkCoupling> next;
     next.emplace(c_, comm_, console_);
+    if (!next->at_rest()) c_ = next->hand_over();
     const Ending ending = recorded([&] {
       open_directory(output::EarlierResults::remove);
       open_record();
@@ -41,8 +42,12 @@ class CascadeRun : private RunBase {
       start_insitu();
       results_.cascade = nlohmann::ordered_json::array();
       Ending last = Ending::completed;
-      while (!next->at_rest() && last == Ending::completed &&
-             static_cast<std::int64_t>(results_.cascade.size()) < c_.coupling.events) {
+      std::string obstacle;  // to the next event
+      const auto goes_on = [&] {
+        return obstacle.empty() && !next->at_rest() && last == Ending::completed &&
+               static_cast<std::int64_t>(results_.cascade.size()) < c_.coupling.events;
+      };
+      while (goes_on()) {
         last = simulate(*next);
         write_table();
         const Aftermath aftermath = c_.aftermath;
@@ -54,11 +59,19 @@ class CascadeRun : private RunBase {
         next.emplace(c_, comm_, console_);
         tell_what_followed(*next);
         write_table();
+        if (!goes_on()) break;
+        try {
+          c_ = next->hand_over();
+        } catch (const InputError& error) {
+          obstacle =
+              fmt::format("event {} cannot be simulated: {}", results_.cascade.size() + 1, error.what());
+        }
       }
       results_.network = next->network_results();
       next->write(options_.directory);
       finish_insitu();
       make_movie();
+      if (!obstacle.empty()) throw RunError(obstacle);
       return last == Ending::interrupted;
     });
     say_summary(ending == Ending::interrupted ? "interrupted"
@@ -182,10 +195,13 @@ class CascadeRun : private RunBase {
 
 Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm) {
   if (configuration.coupling.events > 0) return CascadeRun(std::move(configuration), options, comm).run();
+  if (configuration.coupling.mode == "two_way" && !options.restart.empty())
+    throw InputError("--restart: checkpoints do not hold the state of two-way coupling");
   Console console(comm.is_root(), options.quiet);
   say_title(console, configuration);
   NetworkCoupling coupling(configuration, comm, console);
-  return VesselRun(std::move(configuration), options, comm, &coupling).run();
+  const Configuration& with_vessel = coupling.hand_over();
+  return VesselRun(with_vessel, options, comm, &coupling).run();
 }
 
 }  // namespace rhexis::app

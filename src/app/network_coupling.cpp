@@ -25,7 +25,7 @@ constexpr const char* table_header =
 
 }  // namespace
 
-NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, Console& console)
+NetworkCoupling::NetworkCoupling(const Configuration& c, parallel::Communicator comm, Console& console)
     : c_(c), comm_(comm) {
   {
     const Stopwatch watch(network_s_);
@@ -36,7 +36,10 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
   }
   const Stopwatch watch(exchange_s_);
   choose();
-  if (at_rest_) return;
+}
+
+const Configuration& NetworkCoupling::hand_over() {
+  const Stopwatch watch(exchange_s_);
   vessel_ = tier_->vessel(chosen_);
   try {
     parallel::together<InputError>(comm_, [&] {
@@ -84,7 +87,7 @@ NetworkCoupling::NetworkCoupling(Configuration& c, parallel::Communicator comm, 
         c_.resolved);
   }
   steps_per_window_ = std::max(1L, std::lround(steps));
-  c = c_;
+  return c_;
 }
 
 /// The vessel whose wall is simulated. A cascade comes to rest when there is none.

@@ -18,12 +18,15 @@ namespace rhexis::app {
 
 class NetworkCoupling {
  public:
-  /// Solves the network, and hands its vessel over into `c`, whose wall is then resolved. Nothing is written.
-  /// Collective. Throws InputError and RunError.
-  NetworkCoupling(Configuration& c, parallel::Communicator comm, Console& console);
+  /// Solves the network and chooses its vessel. Nothing is written. Collective. Throws InputError and
+  /// RunError.
+  NetworkCoupling(const Configuration& c, parallel::Communicator comm, Console& console);
 
-  /// The network has been solved, but no vessel's risk is above the cascade's limit: nothing to simulate.
+  /// No vessel's risk is above the cascade's limit: there is nothing to simulate, nor to hand over.
   bool at_rest() const { return at_rest_; }
+  /// Once, before anything is exchanged: the configuration with that vessel, its load and its wall, resolved.
+  /// Collective. Throws InputError.
+  const Configuration& hand_over();
   const QueriedVessel& vessel() const { return chosen_; }
   double risk() const { return risk_; }               ///< of that vessel (screening/screening.hpp)
   double inflow() const { return solution_.inflow; }  ///< m3/s, of the network before the vessel ruptures

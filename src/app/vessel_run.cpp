@@ -28,13 +28,7 @@ enum Flag : std::uint64_t { interrupted = 1, broken = 2, ruptured = 4, unstable 
 
 VesselRun::VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm,
                      NetworkCoupling* coupling)
-    : RunBase(std::move(configuration), std::move(options), comm), coupling_(coupling) {
-  if (coupling_ == nullptr || !coupling_->two_way()) return;
-  const std::string reason = "checkpoints do not hold the state of two-way coupling";
-  if (!options_.restart.empty()) throw InputError("--restart: " + reason);
-  if (c_.output.checkpoint_every > 0)
-    throw input::located(InputError(reason + "; 0 is allowed", "output.checkpoint_every"), c_.resolved);
-}
+    : RunBase(std::move(configuration), std::move(options), comm), coupling_(coupling) {}
 
 VesselRun::~VesselRun() = default;
 
@@ -139,7 +133,6 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   }
   {
     const Stopwatch watch(with_output ? spent_.output : spent_.insitu);
-    energy_.read();
     const peridynamics::Observation& observation = body_->observe(pressure);
     source_->moment(step, time_at(step), observation, {{"pressure", "Pa", pressure}});
   }
@@ -308,7 +301,7 @@ void VesselRun::time_loop() {
     if (events.unstable) flags |= Flag::unstable;
     comm_.all_reduce({&flags, 1}, parallel::Reduce::bit_or);
     take_notice(step_, flags);
-    interrupted_ = (flags & Flag::interrupted) != 0;
+    interrupted_ = (flags & Flag::interrupted) != 0 && step_ + 1 < c_.steps;  // after the last one it is done
     vent_now_ = vent_next_;
   }
 }

@@ -21,8 +21,9 @@ class InTree : public VesselInNetwork {
                     double outside_pressure) const override {
     const auto r = tree_.solve({{vessel_, resistance_factor, leak_conductance, outside_pressure}});
     const auto& v = r.vessels.front();
-    return {.inflow = r.inflow,
-            .outflow = r.outflow,
+    const auto in = [](double flow) { return std::max(flow, 0.0); };
+    return {.inflow = in(r.inflow) + in(-r.outflow),
+            .outflow = in(r.outflow) + in(-r.inflow),
             .flow_from = v.flow_from,
             .flow_to = v.flow_to,
             .leak = v.leak,
@@ -72,24 +73,19 @@ class InGraph : public VesselInNetwork {
     s.pressure_middle = flow.pressure[middle_];
     s.pressure_to = flow.pressure[graph_.to.back()];
     s.leak = leak_conductance * (s.pressure_middle - outside_pressure);
+    std::vector<double> carried_away(graph_.junctions);  // by a junction's vessels, m3/s
+    for (std::size_t v = 0; v < graph_.vessels(); ++v) {
+      carried_away[graph_.from[v]] += flow.flow[v];
+      carried_away[graph_.to[v]] -= flow.flow[v];
+    }
     for (const Condition& c : conditions_) {
-      const double in = flow_into(c, flow);
+      const double in = carried_away[c.junction];
       (in > 0 ? s.inflow : s.outflow) += std::abs(in);
     }
     return s;
   }
 
  private:
-  /// Through a condition's junction, m3/s: what its vessels carry away.
-  double flow_into(const Condition& c, const hemodynamics::GraphFlow& flow) const {
-    double sum = 0;
-    for (std::size_t v = 0; v < graph_.vessels(); ++v) {
-      if (graph_.from[v] == c.junction) sum += flow.flow[v];
-      if (graph_.to[v] == c.junction) sum -= flow.flow[v];
-    }
-    return sum;
-  }
-
   network::Graph graph_;
   std::vector<double> conductance_;
   std::vector<Condition> conditions_;

@@ -98,8 +98,14 @@ ChangedTree::Result ChangedTree::solve(const std::vector<VesselChange>& changes)
     return h;
   };
   const Ends roots{ways.junction(), ways.junction()};
-  ways.conditions.push_back({roots.artery, network::Condition::Kind::pressure, flow_.inlet_pressure(), 0});
-  ways.conditions.push_back({roots.vein, network::Condition::Kind::pressure, flow_.outlet_pressure(), 0});
+  using Kind = network::Condition::Kind;
+  const TreeBoundary& given = flow_.boundary();
+  ways.conditions.push_back(given.inlet_pressure
+                                ? network::Condition{roots.artery, Kind::pressure, *given.inlet_pressure, 0}
+                                : network::Condition{roots.artery, Kind::flow, *given.flow, 0});
+  ways.conditions.push_back(given.outlet_pressure
+                                ? network::Condition{roots.vein, Kind::pressure, *given.outlet_pressure, 0}
+                                : network::Condition{roots.vein, Kind::flow, -*given.flow, 0});
   Halves first_artery, last_vein;
   for (const Place& p : places_) {
     const Ends near = p.place == 1 ? roots : far.at(p.place / 2);

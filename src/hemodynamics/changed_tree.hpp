@@ -38,8 +38,9 @@ class ChangedTree {
     std::vector<ChangedVessel> vessels;  ///< in the order of the changes
   };
 
-  /// The new steady flow, with the inlet and outlet pressures of the unchanged tree. Local; O(k) for each
-  /// vessel. `changes`: of vessels named before, in any order, at most one each; the others are as they were.
+  /// The new steady flow, with the boundary of the unchanged tree: pressures, or a pressure and the flow.
+  /// Local; O(k) for each vessel. `changes`: of vessels named before, in any order, at most one each; the
+  /// others are as they were.
   Result solve(const std::vector<VesselChange>& changes) const;
 
  private:

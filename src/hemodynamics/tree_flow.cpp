@@ -17,7 +17,11 @@ constexpr std::size_t subtrees_between_pauses = 32;
 
 TreeFlow::TreeFlow(const network::TreePair& tree, const Viscosity& viscosity, const TreeBoundary& boundary,
                    parallel::Communicator comm, bool one_by_one)
-    : tree_(tree), law_(tree_, viscosity), comm_(comm), alike_(tree.rules().repeats() && !one_by_one) {
+    : tree_(tree),
+      boundary_(boundary),
+      law_(tree_, viscosity),
+      comm_(comm),
+      alike_(tree.rules().repeats() && !one_by_one) {
   const int pressures = boundary.inlet_pressure.has_value() + boundary.outlet_pressure.has_value();
   if (pressures + boundary.flow.has_value() != 2 || pressures == 0) {
     throw InputError("a tree needs two of inlet pressure, outlet pressure and inlet flow");

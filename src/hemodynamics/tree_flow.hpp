@@ -72,6 +72,7 @@ class TreeFlow {
   double flow() const { return root_.flow; }         ///< m3/s
   double inlet_pressure() const { return root_.artery_pressure; }
   double outlet_pressure() const { return root_.vein_pressure; }
+  const TreeBoundary& boundary() const { return boundary_; }
   const network::TreePair& tree() const { return tree_; }
   const TreeLaw& law() const { return law_; }
 
@@ -112,6 +113,7 @@ class TreeFlow {
   SubtreeState branch_state(std::size_t branch) const { return top_->daughter(branch); }
 
   network::TreePair tree_;
+  TreeBoundary boundary_;
   TreeLaw law_;
   parallel::Communicator comm_;
   bool alike_;

@@ -217,7 +217,7 @@ class Gatherer : public VesselConsumer {
       const auto both = [&](auto shift, auto artery, auto vein) {
         return hn::Or(hn::ShiftLeft<copies_shift>(hn::Or(hn::ShiftLeft<shift.value>(artery), vein)), turn);
       };
-      hn::Store(hn::Or(hn::ShiftLeft<copies_shift>(find_flow_(q)), turn), di, place[0]);
+      hn::Store(hn::Or(hn::ShiftLeft<copies_shift>(find_flow_(hn::Abs(q))), turn), di, place[0]);
       hn::Store(both(std::integral_constant<int, pressure_shift>(), find_pressure_(p), find_pressure_(v)), di,
                 place[1]);
       hn::Store(both(std::integral_constant<int, stress_shift>(), find_stress_(s), find_stress_(w)), di,

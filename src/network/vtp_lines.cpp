@@ -88,7 +88,7 @@ void Reading::add_vessel(std::size_t line, std::span<const std::size_t> run) {
   if (wall_ != nullptr) graph.wall_thickness.push_back(of_cell(*wall_, line) * unit_);
   if (kind_ != nullptr) graph.kind.push_back(static_cast<VesselKind>(whole_number(*kind_, line, 0, 2)));
   if (generation_ != nullptr)
-    graph.generation.push_back(static_cast<std::int8_t>(whole_number(*generation_, line, -128, 127)));
+    graph.generation.push_back(static_cast<std::int8_t>(whole_number(*generation_, line, -1, 127)));
 }
 
 void Reading::check_measures() const {

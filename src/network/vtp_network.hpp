@@ -12,7 +12,7 @@
 /// Arrays, in the file's unit of length (and Pa, m3/s); all but the radius are optional:
 /// - radius, Radius, MaximumInscribedSphereRadius, diameter or Diameter, of cells or points: the first found
 /// - length, wall_thickness, of cells; a length is shared out among a line's vessels
-/// - kind (0 artery, 1 vein, 2 unknown), generation (-128 .. 127), of cells
+/// - kind (0 artery, 1 vein, 2 unknown), generation (-1: unknown, to 127), of cells
 /// - pressure_condition, flow_condition (into the network), of points; nan: none (VTK reads nan from binary
 ///   and appended data only, not from format="ascii")
 #pragma once

@@ -36,7 +36,7 @@ std::string processor_name() {
   return {};
 }
 
-EnergyMeter::EnergyMeter(const std::filesystem::path& counters) {
+EnergyMeter::EnergyMeter(const std::filesystem::path& counters, std::chrono::milliseconds interval) {
   std::error_code none;
   for (const auto& zone : std::filesystem::directory_iterator(counters, none)) {
     // Packages, "intel-rapl:0"; what they consist of, "intel-rapl:0:1", is in them.
@@ -46,15 +46,28 @@ EnergyMeter::EnergyMeter(const std::filesystem::path& counters) {
     const auto range = number_in(zone.path() / "max_energy_range_uj");
     if (now && range) counters_.push_back({zone.path() / "energy_uj", *range, *now});
   }
+  if (counters_.empty()) return;
+  watcher_ = std::jthread([this, interval](const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (!stop.stop_requested()) {
+      never_.wait_for(lock, stop, interval, [] { return false; });
+      look();
+    }
+  });
 }
 
-std::optional<double> EnergyMeter::read() {
-  if (counters_.empty()) return {};
+void EnergyMeter::look() {
   for (Counter& counter : counters_) {
     const double now = number_in(counter.file).value_or(counter.last);
     used_ += now - counter.last + (now < counter.last ? counter.range : 0);
     counter.last = now;
   }
+}
+
+std::optional<double> EnergyMeter::read() {
+  if (counters_.empty()) return {};
+  const std::lock_guard lock(mutex_);
+  look();
   return 1e-6 * used_;
 }
 

@@ -61,8 +61,8 @@ std::vector<long> planned_steps(const Parameters& p, long steps, double time_ste
     for (long k = 0;; ++k) {
       // The first step at or after the time asked for; round-off must not push it one step on.
       const double exact = static_cast<double>(k) * *p.every_time / time_step;
+      if (exact - 1e-6 > static_cast<double>(steps - 1)) break;
       const long step = static_cast<long>(std::ceil(exact - 1e-6));
-      if (step >= steps) break;
       if (plan.empty() || step > plan.back()) plan.push_back(step);
     }
   } else {

@@ -11,12 +11,12 @@
 namespace rhexis::parallel {
 
 /// Fixed-point accumulator: terms are cut to a quantum 2^-80 times the power of two above `scale` and added
-/// as 128-bit integers, which is exact. Terms up to 2^20 times the scale fit; larger ones (or nan) make it
-/// infinite.
+/// as 128-bit integers, which is exact. A scale of 0 counts as 1. Terms up to 2^20 times the scale fit;
+/// larger ones (or nan) make it infinite.
 class ExactSum {
  public:
   explicit ExactSum(double scale)
-      : quantum_(std::ldexp(1.0, std::ilogb(scale) + 1 - 80)), per_quantum_(1 / quantum_) {}
+      : quantum_(std::ldexp(1.0, std::ilogb(scale > 0 ? scale : 1.0) + 1 - 80)), per_quantum_(1 / quantum_) {}
 
   void add(double term) {
     const double units = term * per_quantum_;

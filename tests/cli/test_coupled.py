@@ -52,6 +52,8 @@ WRONG = [
     ("pressure", changed(TWO_WAY, "ramp_time", 'pressure = "10 kPa"'), [r'c\.toml:26: load\.pressure = "10 kPa": ', "network"]),
     ("table", changed(TWO_WAY, "schedule", 'schedule = "table"'), [r'c\.toml:25: load\.schedule = "table": ', "network"]),
     ("checkpoints of two-way coupling", changed(TWO_WAY, "precision", "checkpoint_every = 9"), [r"c\.toml:34: output\.checkpoint_every = 9: ", "two.way"]),
+    ("checkpoints of a cascade", changed(TWO_WAY, "precision", "checkpoint_every = 9") + "[cascade]\nevents = 2\n",
+     [r"c\.toml:34: output\.checkpoint_every = 9: ", "two.way"]),
 ]
 
 

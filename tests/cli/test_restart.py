@@ -70,6 +70,21 @@ class Restart(VesselCase):
         jump = "the schedule had 178.5 kPa at step 150, and now has 150 kPa"
         self.assertEqual(self.record("other")["warnings"], [told, jump])
 
+    def test_an_interrupt_in_the_last_step_is_too_late(self):
+        if "Catalyst" not in self.rhexis("--version").stdout:
+            self.skipTest("built without ParaView")
+        with open(self.path("stop.py"), "w", encoding="utf-8") as file:
+            file.write("import os, signal\ndef catalyst_execute(info):\n"
+                       "    if info.timestep == 9:\n        os.kill(os.getpid(), signal.SIGINT)\n")
+        self.write(replaced("end", 'end = "5 us"') + '[insitu]\nscripts = ["stop.py"]\nevery_steps = 1\n')
+        result = self.rhexis("run", "vessel.toml", "-o", "out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.record("out")["status"], "completed")
+        self.assertEqual(os.listdir(self.path("out/checkpoints")), [])
+        cut = self.rhexis("run", "vessel.toml", "-o", "out", "--set", "time.end=5.5 us")
+        self.assertEqual(cut.returncode, 130, cut.stderr)
+        self.assertTrue(os.path.exists(self.path("out/checkpoints/step_000010.h5")))
+
     def test_many_spots_fit_into_a_checkpoint(self):
         spots = "".join(f'[[spot]]\nposition = "1 mm"\nangle = "{0.5 * i} deg"\nradius = "0.2 mm"\nstiffness = 0.99\n'
                         for i in range(700))

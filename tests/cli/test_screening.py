@@ -246,7 +246,22 @@ class Screening(unittest.TestCase):
         self.assertEqual([event["name"] for event in record["results"]["cascade"]], ["a"])
         self.assertTrue((self.path / "out" / "event_01" / "history.csv").exists())
         (event,) = rows(self.path / "out" / "cascade.csv")
-        self.assertEqual((event["name"], event["ruptured"], event["next_vessel"]), ("a", "true", ""))
+        self.assertEqual((event["name"], event["ruptured"], event["next_vessel"]), ("a", "true", "b"))
+        self.assertIn("event 2 cannot be simulated", record["status"])
+        self.assertIsNotNone(record["results"]["network"]["vessels"])
+        self.assertTrue((self.path / "out" / "vessels.csv").exists())
+        # Nobody asks for that event.
+        self.run_scene(text, sets=['time.end="1.4 ms"', 'load.ramp_time="1.2 ms"', "cascade.events=1"])
+        (event,) = rows(self.path / "out" / "cascade.csv")
+        self.assertEqual((event["name"], event["next_vessel"]), ("a", "b"))
+
+    def test_a_cascade_without_a_vessel_at_risk(self):
+        (self.path / "n.toml").write_text(FILES + "[cascade]\nevents = 2\nrisk_limit = 1000\n")
+        done = subprocess.run([RHEXIS, "check", "n.toml"], cwd=self.path, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("No vessel's risk is above cascade.risk_limit = 1000", done.stdout)
+        self.run_scene(FILES + "[cascade]\nevents = 2\nrisk_limit = 1000\n")
+        self.assertEqual(self.record()["cascade"], [])
 
     def test_a_wall_that_holds_is_not_tried_again(self):
         # A limit far below one: screening sends vessels whose walls hold.

@@ -14,7 +14,8 @@ namespace {
 constexpr double inlet = 12600, outlet = 600;
 
 /// All vessels explicitly, each changed one cut in half.
-ChangedTree::Result by_graph(const network::TreePair& tree, const std::vector<VesselChange>& changes) {
+ChangedTree::Result by_graph(const network::TreePair& tree, const std::vector<VesselChange>& changes,
+                             const TreeBoundary& given = {inlet, outlet, {}}) {
   network::Graph graph = tree.materialise(false);
   std::vector<double> conductance;
   for (std::size_t v = 0; v < graph.vessels(); ++v) {
@@ -23,7 +24,11 @@ ChangedTree::Result by_graph(const network::TreePair& tree, const std::vector<Ve
   }
   const auto end = static_cast<std::uint32_t>(std::size_t{1} << tree.generations());
   using Kind = network::Condition::Kind;
-  std::vector<network::Condition> conditions{{0, Kind::pressure, inlet, 0}, {end, Kind::pressure, outlet, 0}};
+  std::vector<network::Condition> conditions(2);
+  conditions[0] = given.inlet_pressure ? network::Condition{0, Kind::pressure, *given.inlet_pressure, 0}
+                                       : network::Condition{0, Kind::flow, *given.flow, 0};
+  conditions[1] = given.outlet_pressure ? network::Condition{end, Kind::pressure, *given.outlet_pressure, 0}
+                                        : network::Condition{end, Kind::flow, -*given.flow, 0};
   std::vector<std::size_t> second;
   for (const VesselChange& c : changes) {
     const auto middle = static_cast<std::uint32_t>(graph.junctions++);
@@ -78,6 +83,26 @@ TEST(ChangedTree, AgreesWithTheWholeGraph) {
       leaks += a.vessels[i].leak;
     }
     EXPECT_NEAR(a.inflow - a.outflow, leaks, 1e-13 * a.inflow);
+  }
+}
+
+TEST(ChangedTree, KeepsTheFlowThatIsGiven) {
+  const network::TreePair tree(test::random_rules(10));
+  const double flow =
+      TreeFlow(tree, test::in_vivo(), {inlet, outlet, {}}, parallel::Communicator::world()).flow();
+  const std::vector<VesselChange> changes{{2, 1.5, 3e-11, 0}, {77, 2, 1e-12, -500}};
+  for (const TreeBoundary& given : {TreeBoundary{{}, outlet, flow}, TreeBoundary{inlet, {}, flow}}) {
+    const TreeFlow before(tree, test::in_vivo(), given, parallel::Communicator::world());
+    const ChangedTree::Result a = ChangedTree(before, {2, 77}).solve(changes),
+                              b = by_graph(tree, changes, given);
+    EXPECT_NEAR((given.inlet_pressure ? a.outflow : a.inflow) / flow, 1, 1e-12);
+    EXPECT_NEAR(a.inflow, b.inflow, 1e-12 * flow);
+    EXPECT_NEAR(a.outflow, b.outflow, 1e-12 * flow);
+    EXPECT_GT(a.inflow, 1.01 * a.outflow);
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      EXPECT_NEAR(a.vessels[i].leak, b.vessels[i].leak, 1e-12 * flow);
+      EXPECT_NEAR(a.vessels[i].pressure_middle, b.vessels[i].pressure_middle, 1e-8);
+    }
   }
 }
 

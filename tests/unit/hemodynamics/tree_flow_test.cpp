@@ -211,6 +211,30 @@ TEST(TreeStatistics, HistogramsCountEveryVesselWhereItBelongs) {
   EXPECT_EQ(last.pressure_counts[0], pressures);
 }
 
+TEST(TreeStatistics, BloodThatRunsBackwardsIsCountedByItsMagnitude) {
+  const network::TreePair tree(test::random_rules(9));
+  const TreeFlow forth(tree, test::in_vivo(), {inlet, outlet, {}}, world());
+  const TreeFlow back(tree, test::in_vivo(), {outlet, inlet, {}}, world());
+  const TreeStatistics s = gather_statistics(forth, test::in_vivo(), world());
+  const TreeStatistics t = gather_statistics(back, test::in_vivo(), world());
+  for (std::size_t g = 0; g < s.generations.size(); ++g) {
+    EXPECT_EQ(t.generations[g].flow.mean, -s.generations[g].flow.mean);
+    EXPECT_EQ(t.generations[g].flow_counts, s.generations[g].flow_counts);
+  }
+}
+
+TEST(TreeStatistics, BloodAtRestHasNumbers) {
+  const network::TreePair tree(test::random_rules(9));
+  for (const double pressure : {inlet, 0.0}) {
+    const TreeFlow rest(tree, test::in_vivo(), {pressure, pressure, {}}, world());
+    for (const GenerationStatistics& g : gather_statistics(rest, test::in_vivo(), world()).generations) {
+      EXPECT_EQ(g.flow.mean, 0);
+      EXPECT_NEAR(g.pressure[0].mean, pressure, 1e-9 * pressure);
+      EXPECT_TRUE(std::isfinite(g.hoop_stress[1].mean));
+    }
+  }
+}
+
 TEST(TreeFlow, WholeBodyWithoutVariationIsImmediate) {
   const TreePair tree(test::plain_rules(40));
   const TreeFlow flow(tree, test::in_vivo(), {inlet, outlet, {}}, world());

@@ -123,6 +123,8 @@ TEST_F(VtpNetwork, Mistakes) {
   refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "-1")), {"cell 0", "radius", "-1"});
   refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "1e8")),
           {"cell 0", "radius", "above 100 m", "network.file_length_unit"});
+  refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "1") + array("generation", "-2")),
+          {"cell 0", "generation is -2", "-1 .. 127"});
   refused(polydata(2, 1, two, "0 0", "2", "", array("radius", "1")), {"cell 0"});
   refused(polydata(2, 1, two, "0 7", "2", "", array("radius", "1")), {"n.vtp"});
   refused(polydata(2, 0, two, "", "", "", ""), {"line"});

@@ -21,6 +21,8 @@ TEST(PlannedSteps, EverySoMuchTime) {
   Parameters p;
   p.every_time = 2.5e-6;  // falls between steps: the first step at or after it
   EXPECT_EQ(planned_steps(p, 8, 1e-6), (Steps{0, 3, 5, 8}));
+  p.every_time = 1e15;
+  EXPECT_EQ(planned_steps(p, 8, 1e-6), (Steps{0, 8}));
   p.every_time = 1e-7;  // finer than the steps: every step, once
   EXPECT_EQ(planned_steps(p, 3, 1e-6), (Steps{0, 1, 2, 3}));
 }

@@ -41,6 +41,14 @@ TEST(ExactSum, DoesNotDependOnOrderOrRanks) {
   EXPECT_NEAR(all.value(), plain, 1e-10);
 }
 
+TEST(ExactSum, WithoutScaleSumsAllTheSame) {
+  ExactSum sum(0.0);
+  sum.add(0.0);
+  EXPECT_EQ(sum.value(), 0.0);
+  sum.add(0.5);
+  EXPECT_EQ(sum.value(), 0.5);
+}
+
 TEST(ExactSum, TermsAreWholeDownToTheQuantum) {
   for (const double sign : {1.0, -1.0}) {
     for (int exponent = -27; exponent < 20; ++exponent) {  // the last bit of the smallest is 2^-79
