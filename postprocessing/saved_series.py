@@ -31,12 +31,17 @@ def draw_series(description, kind, image_name, point_fields, cell_fields, draw):
     if not path.exists():
         sys.exit(f"error: no file {path}")
     output = arguments.output or path.parent / "images"
-    output.mkdir(parents=True, exist_ok=True)
-
-    frames = read_frames(path)
+    try:
+        frames = read_frames(path)
+    except ElementTree.ParseError as error:
+        sys.exit(f"error: {path} is not the {kind}.xdmf of a run ({error})")
     if not frames:
         sys.exit(f"error: {path} holds no moment in time")
     reader = XDMFReader(FileNames=[str(path)])
+    absent = {*point_fields, *cell_fields} - {*reader.PointArrayStatus.Available, *reader.CellArrayStatus.Available}
+    if absent:
+        sys.exit(f"error: {path} holds no {' and no '.join(sorted(absent))}, which the picture of a {image_name} needs")
+    output.mkdir(parents=True, exist_ok=True)
     reader.PointArrayStatus, reader.CellArrayStatus = point_fields, cell_fields
     for time_s, step in frames[:: arguments.every]:
         reader.UpdatePipeline(time_s)

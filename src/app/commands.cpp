@@ -36,8 +36,13 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
   }
-  run->add_option("-o,--output", command.directory, "Folder for results; default results/<name of FILE>");
-  run->add_option("--restart", command.restart, "Go on from a checkpoint of an earlier run");
+  const auto not_empty = [](const std::string& text) {
+    return std::string(text.empty() ? "the name is empty" : "");
+  };
+  run->add_option("-o,--output", command.directory, "Folder for results; default results/<name of FILE>")
+      ->check(not_empty);
+  run->add_option("--restart", command.restart, "Go on from a checkpoint of an earlier run")
+      ->check(not_empty);
   run->add_flag("--quiet", command.quiet, "Print errors only");
   keys->add_option("SECTION", command.section, "One section only");
 

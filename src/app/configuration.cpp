@@ -12,9 +12,11 @@
 #include "input/reader.hpp"
 #include "input/units.hpp"
 #include "network/network_file.hpp"
+#include "network/vtp_network.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
+#include "peridynamics/schedule.hpp"
 #include "peridynamics/strength.hpp"
 #include "peridynamics/surface_correction.hpp"
 #include "peridynamics/time_steps.hpp"
@@ -235,11 +237,20 @@ void resolve_vessel(Configuration& c) {
   c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
 }
 
+/// Where results are told by pressure, it should be one that walls have seen.
+void warn_of_an_unfinished_ramp(Configuration& c) {
+  const double share = peridynamics::schedule_share(c.vessel, c.vessel.end_time);
+  if (share < 1 - 1e-9)
+    c.warnings.push_back("the ramp is not over at time.end: walls see " + text(100 * share, 3) +
+                         " % of each pressure at most; shorten load.ramp_time, or end later");
+}
+
 void resolve_ensemble(Configuration& c) {
   ensemble::resolve(c.ensemble);
   resolve_vessel(c);  // the mean one
   const auto warnings = ensemble::check_walls(c.ensemble, c.vessel);
   c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
+  warn_of_an_unfinished_ramp(c);
 }
 
 void resolve_network(Configuration& c, parallel::Communicator comm) {
@@ -247,6 +258,8 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
   hemodynamics::resolve(c.hemodynamics);
   if (n.vtp && n.tier == "distributed")
     throw InputError("not with network.tier = \"distributed\"", "network.vtp");
+  if (n.vtp && !network::knows_vtp())
+    throw InputError("VTP files need ParaView's VTK when Rhexis is built", "network.vtp");
   const bool explicit_tier = n.tier == "explicit" || (n.tier == "auto" && n.source == "file");
   if (c.hemodynamics.phase_separation && !explicit_tier) {
     throw InputError("phase separation needs network.tier = \"explicit\"", "blood.phase_separation");
@@ -283,7 +296,15 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
   if (!n.files.empty())
     throw InputError("files are read only where network.source = \"file\"", "network.files");
   c.tree = network::rules_from(n.tree, network::artery_wall(n.wall), network::vein_wall(n.wall));
-  hemodynamics::tree_boundary(c.hemodynamics);
+  const hemodynamics::TreeBoundary boundary = hemodynamics::tree_boundary(c.hemodynamics);
+  if (boundary.inlet_pressure && boundary.outlet_pressure &&
+      *boundary.inlet_pressure < *boundary.outlet_pressure)
+    c.warnings.push_back(
+        "flow.inlet_pressure is below flow.outlet_pressure: blood runs backwards, from veins to arteries");
+  if (!n.tree.length_by_radius.empty()) {
+    for (const char* key : {"tree.length_ratio", "tree.length_ratio_by_generation"})
+      no_effect(c, key, "where tree.length_by_radius is given");
+  }
   const network::TreePair tree(c.tree);
   const auto check_path = [&](const std::string& path, const char* key) {
     check_key(key, [&] { tree.id_of(path); });
@@ -337,7 +358,14 @@ void resolve_coupling(Configuration& c) {
     throw InputError("a cascade needs network.tier = \"explicit\"", "cascade.events");
   if (p.events > 0 && c.hemodynamics.phase_separation)
     throw InputError("not with blood.phase_separation", "cascade.events");
-  if (p.events > 0) c.screening.top = std::max<std::int64_t>(1, c.screening.top);
+  if (p.events > 0) {
+    c.screening.top = std::max<std::int64_t>(1, c.screening.top);
+    warn_of_an_unfinished_ramp(c);
+  }
+  const hemodynamics::Parameters& h = c.hemodynamics;
+  if ((p.mode == "two_way" || p.events > 0) && c.network.source == "tree" && !h.outlet_pressure)
+    throw InputError("needed where a tree bleeds: what then leaves it is less than flow.inlet_flow",
+                     "flow.outlet_pressure");
   if (p.screens()) {
     c.screening.top = std::max<std::int64_t>(1, c.screening.top);
   } else {

@@ -22,8 +22,9 @@ using network::TreePair;
 /// Blood through every generation against the inflow: what the sweep itself shows of conservation.
 double worst_generation(const hemodynamics::TreeStatistics& s, double inflow) {
   double worst = 0;
-  for (const auto& g : s.generations) worst = std::max(worst, std::abs(g.flow.mean * g.vessels / inflow - 1));
-  return worst;
+  for (const auto& g : s.generations)
+    worst = std::max(worst, std::abs(std::abs(g.flow.mean) * g.vessels / inflow - 1));
+  return inflow > 0 ? worst : 0;
 }
 
 class ImplicitTier : public NetworkTier {
@@ -58,7 +59,7 @@ class ImplicitTier : public NetworkTier {
                    c_.screening.top > 0 && mechanics_.variation.varies());
     }
     say(fmt::format("  flow found in {} ({} a vessel)", duration(spent), per_vessel(spent)));
-    s.inflow = flow->flow();
+    s.inflow = std::abs(flow->flow());
     s.highest_pressure = std::max(flow->inlet_pressure(), flow->outlet_pressure());
     s.lowest_pressure = std::min(flow->inlet_pressure(), flow->outlet_pressure());
     for (const network::VesselKind kind : {network::VesselKind::artery, network::VesselKind::vein}) {

@@ -79,6 +79,7 @@ const Configuration& NetworkCoupling::hand_over() {
   }
   c_.vessel.pressure = pressure();
   resolve_wall(c_);
+  warn_of_a_short_piece();
   const double steps =
       c_.coupling.window.value_or(std::max(c_.vessel.end_time / 200, c_.time_step)) / c_.time_step;
   if (two_way() && steps < 1) {
@@ -88,6 +89,21 @@ const Configuration& NetworkCoupling::hand_over() {
   }
   steps_per_window_ = std::max(1L, std::lround(steps));
   return c_;
+}
+
+/// Ends that the vessel does not have must not carry its wall.
+void NetworkCoupling::warn_of_a_short_piece() {
+  const peridynamics::Parameters& v = c_.vessel;
+  if (piece_.whole || peridynamics::end_condition(v) != peridynamics::EndCondition::clamped) return;
+  const double reach = coupling::clamped_reach(std::midpoint(v.inner_radius, v.outer_radius),
+                                               v.outer_radius - v.inner_radius, v.law.poisson_ratio);
+  const double free = v.length - 2 * *v.end_length;
+  if (free >= 2 * reach) return;
+  c_.warnings.push_back(fmt::format(
+      "of the simulated piece {} lie between its clamped ends, each of which holds the wall back over {}: "
+      "it bears more than the vessel would. Take boundary.ends = \"axial_periodic\" or \"sliding\", or "
+      "more discretisation.particles",
+      quantity(free, "m", 3), quantity(reach, "m", 3)));
 }
 
 /// The vessel whose wall is simulated. A cascade comes to rest when there is none.
@@ -140,6 +156,8 @@ void NetworkCoupling::choose_places() {
           "an edge of the compression lies within the vessel, whose load is taken at its two ends "
           "and its middle, and straight between them");
     }
+    if (ends.second < compression.from || ends.first > compression.to)
+      c_.warnings.push_back(fmt::format("the compression does not reach vessel {}", chosen_.name));
   }
   for (std::size_t i = 0; i < 3; ++i) {
     coupling::PressureParts& p = parts_[i];
@@ -294,9 +312,11 @@ void NetworkCoupling::say_summary(Console& console) const {
   if (two_way()) {
     console.item(
         "bleeding",
-        fmt::format("{:.3g} mL/min at the end, {:.3g} uL in all; net pressure in the middle from {} to {}",
-                    leak_ * 6e7, leaked_ * 1e9, mmhg(first_load_.pressure[1]),
-                    mmhg(schedule_ * load_.pressure[1])));
+        fmt::format(
+            "{:.3g} mL/min at the end, {:.3g} uL in all; net pressure in the middle then {}, in the intact "
+            "vessel {}",
+            leak_ * 6e7, leaked_ * 1e9, mmhg(schedule_ * load_.pressure[1]),
+            mmhg(schedule_ * first_load_.pressure[1])));
     console.item("conserved", fmt::format("blood to {:.1e} of the inflow at worst, {} exchanges",
                                           worst_imbalance_, windows_));
   }

@@ -76,6 +76,7 @@ class NetworkCoupling {
   void choose();
   void find_load(const std::array<double, 3>& heart);
   void choose_places();
+  void warn_of_a_short_piece();
   double middle_outside() const { return parts_[1].outside(); }
 
   Configuration c_;  ///< with the vessel's geometry

@@ -63,6 +63,11 @@ Piece hand_over(const VesselData& v, bool always_paper, peridynamics::Parameters
   return piece;
 }
 
+double clamped_reach(double mid_radius, double wall_thickness, double poisson_ratio) {
+  return std::numbers::pi * std::sqrt(mid_radius * wall_thickness) /
+         std::pow(3 * (1 - poisson_ratio * poisson_ratio), 0.25);
+}
+
 std::vector<double> axial_profile(const AxialLoad& load, const VesselData& v, const Piece& piece,
                                   std::int64_t rows, double row_spacing) {
   std::vector<double> profile(static_cast<std::size_t>(rows), 1.0);

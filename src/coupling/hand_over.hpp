@@ -48,6 +48,11 @@ Piece choose_piece(const VesselData& vessel, std::int64_t particles, bool always
 /// kept, for the whole vessel.
 Piece hand_over(const VesselData& vessel, bool always_paper, peridynamics::Parameters& p);
 
+/// How far a clamped end holds a thin wall back, m: from pi / beta on, beta^4 = 3 (1 - nu^2) / (R h)^2 with R
+/// the radius at mid-wall and h its thickness, the displacement is within 5 % of an endless wall's
+/// (Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells, Sec. 114).
+double clamped_reach(double mid_radius, double wall_thickness, double poisson_ratio);
+
 /// The load at each of the rows of particles of the piece, relative to the largest: 1 where the load is
 /// uniform, to the last bit.
 std::vector<double> axial_profile(const AxialLoad& load, const VesselData& vessel, const Piece& piece,

@@ -75,6 +75,10 @@ bool is_complete(const std::filesystem::path& path) {
 
 }  // namespace
 
+bool knows_vtp() {
+  return has_plugin(vtp::library);
+}
+
 BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path.string() + ": no such file");

@@ -25,6 +25,9 @@
 
 namespace rhexis::network {
 
+/// Whether there is the plugin, without which VTP files are neither read nor written.
+bool knows_vtp();
+
 /// Reads a network; throws InputError, naming the file and the cell or point at fault, also where there is
 /// no plugin.
 BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit);

@@ -94,7 +94,7 @@ class Cli(VesselCase):
         self.assertIn("load", wrong.stderr)
 
     def test_wrong_calls(self):
-        for arguments in ([], ["fly"], ["run"], ["run", "a.toml", "--fast"]):
+        for arguments in ([], ["fly"], ["run"], ["run", "a.toml", "--fast"], ["run", "a.toml", "-o", ""]):
             self.assertEqual(self.rhexis(*arguments).returncode, 2, arguments)
 
     def test_check_tells_derived_numbers_and_writes_nothing(self):

@@ -51,6 +51,8 @@ WRONG = [
     ("section of a vessel's scene", TWO_WAY + '[vessel]\nlength = "2 mm"\n', [r"c\.toml:35: section \[vessel\]", r'scene\.model = "vessel"', '"coupled"']),
     ("pressure", changed(TWO_WAY, "ramp_time", 'pressure = "10 kPa"'), [r'c\.toml:26: load\.pressure = "10 kPa": ', "network"]),
     ("table", changed(TWO_WAY, "schedule", 'schedule = "table"'), [r'c\.toml:25: load\.schedule = "table": ', "network"]),
+    ("flow instead of the pressure behind a bleeding tree", changed(TREE, "outlet_pressure", 'inlet_flow = "1 L/min"').replace(
+        "[coupling]", '[coupling]\nmode = "two_way"'), [r"c\.toml: flow\.outlet_pressure ", "needed where a tree bleeds"]),
     ("checkpoints of two-way coupling", changed(TWO_WAY, "precision", "checkpoint_every = 9"), [r"c\.toml:34: output\.checkpoint_every = 9: ", "two.way"]),
     ("checkpoints of a cascade", changed(TWO_WAY, "precision", "checkpoint_every = 9") + "[cascade]\nevents = 2\n",
      [r"c\.toml:34: output\.checkpoint_every = 9: ", "two.way"]),
@@ -97,8 +99,19 @@ class Coupled(CoupledCase):
                 for pattern in patterns:
                     self.assertRegex(result.stdout, pattern)
         self.assertEqual(sorted(os.listdir(self.path)), before)
+        short = "bears more than the vessel would"
+        self.assertIn(short, self.rhexis("check", "tree.toml").stderr)
+        self.assertNotIn(short, self.rhexis("check", "tree.toml", "--set", "boundary.ends=axial_periodic").stderr)
+        self.assertNotIn(short, self.rhexis("check", "two_way.toml").stderr)
         cuff = next(case for case in WRONG if case[0] == "cuff beyond the body")
         self.assert_refused(*self.refuse(cuff, None, "check", "c.toml"), cuff[2])
+
+    def test_a_cuff_that_does_not_reach_the_vessel_is_told(self):
+        self.write({"c.toml": TWO_WAY + '[body]\ncompression = "9 mmHg"\n'})
+        for edge, told in (("20 mm", True), ("1 mm", False)):
+            result = self.rhexis("check", "c.toml", "--set", f"body.compression_from={edge}")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual("the compression does not reach vessel artery" in result.stderr, told, result.stderr)
 
     # -- the load ------------------------------------------------------------------------------------------------
 

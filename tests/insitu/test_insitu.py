@@ -385,6 +385,13 @@ class Afterwards(DriverTest):
             self.assertEqual(read(folder / "images" / "vessel_000050.png").shape, (720, 1280, 3))
             self.assertEqual(read(folder / "history.png").shape[1], 1080)
             self.assertGreater((folder / "movie.mp4").stat().st_size, 10_000)
+            render = [scripts / "pvpython_headless", scripts / "render_network.py"]
+            for file, message in (("particles.xdmf", "holds no flow and no kind and no pressure and no radius"),
+                                  ("history.csv", "is not the network.xdmf of a run")):
+                result = subprocess.run([*render, folder / file], env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertIn(message, result.stderr)
+                self.assertNotIn("Traceback", result.stderr)
             # A run that was only begun has nothing to draw.
             (folder / "history.csv").write_text((folder / "history.csv").read_text().splitlines()[0] + "\n")
             result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)

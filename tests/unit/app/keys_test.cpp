@@ -116,12 +116,50 @@ TEST(Keys, WithoutEffectAreWarnedOf) {
     expect_no_effect(warnings_of(tree, {key, "network.tier=explicit"}), key, "only with \"implicit\"");
   for (const char* key : {"weakness.strength=0.3", "weakness.thickness=0.8"})
     expect_no_effect(warnings_of(tree, {key}), key, "without weakness.vessels or weakness.subtrees");
+  expect_no_effect(warnings_of(tree, {"tree.length_by_radius=[[\"1 mm\",\"1 cm\"],[\"2 mm\",\"4 cm\"]]",
+                                      "tree.length_ratio=30"}),
+                   "tree.length_ratio", "where tree.length_by_radius is given");
   expect_no_effect(warnings_of(tree, {"weakness.seed=2"}), "weakness.seed",
                    "without weakness.strength_spread");
   for (const char* key : {"network.file_length_unit=mm", "network.statistics=false"})
     expect_no_effect(warnings_of_input("own_network.toml", key), key, "files");
   expect_no_effect(warnings_of_input("two_way.toml", "load.supply_area=1 mm2"), "load.supply_area",
                    "the network supplies the blood");
+}
+
+const std::string ensemble = R"(
+[scene]
+model = "ensemble"
+[ensemble]
+pressures = ["24 kPa"]
+samples = 2
+strength_spread = 0.1
+[vessel]
+inner_radius = "1.5 mm"
+outer_radius = "2 mm"
+length = "2 mm"
+[discretisation]
+spacing = "125 um"
+[load]
+schedule = "smooth_ramp"
+ramp_time = "0.3 ms"
+[time]
+end = "0.4 ms"
+)";
+
+TEST(Warnings, OfRampsThatAreNotOverAtTheEnd) {
+  EXPECT_EQ(warnings_of(ensemble), std::vector<std::string>{});
+  for (const auto& warnings : {warnings_of(ensemble, {"load.ramp_time=0.8 ms"}),
+                               warnings_of_input("cascade.toml", "load.ramp_time=5 ms")}) {
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings.front().find("the ramp is not over at time.end: walls see "), std::string::npos)
+        << warnings.front();
+  }
+  EXPECT_NE(warnings_of(ensemble, {"load.ramp_time=0.8 ms"}).front().find(" 50 % "), std::string::npos);
+}
+
+TEST(Warnings, OfBloodThatRunsBackwards) {
+  EXPECT_EQ(warnings_of(tree, {"flow.inlet_pressure=1 mmHg"}).size(), 1u);
 }
 
 }  // namespace

@@ -39,6 +39,17 @@ TEST(HandOver, APieceWhereTheRuleIsTooCoarse) {
   EXPECT_EQ(piece.paper_spacing, paper_rule.spacing);
 }
 
+TEST(HandOver, ClampedEndsHoldTheWallBackThatFar) {
+  // The deflection of a beam on an elastic foundation, over that far from its end.
+  const double radius = 1.5e-3, wall = 0.15e-3, nu = 0.25, reach = clamped_reach(radius, wall, nu);
+  const double beta = std::pow(3 * (1 - nu * nu), 0.25) / std::sqrt(radius * wall);
+  const auto deflection = [=](double x) {
+    return 1 - std::exp(-beta * x) * (std::sin(beta * x) + std::cos(beta * x));
+  };
+  for (double x = reach; x < 5 * reach; x += 0.01 * reach) EXPECT_NEAR(deflection(x), 1, 0.05) << x;
+  EXPECT_LT(deflection(0.5 * reach), 0.9);
+}
+
 TEST(HandOver, TooFewRows) {
   EXPECT_THROW(choose_piece({1.5e-3, 0.5e-3, 0.2e-3}, 55000, false), InputError);  // a ring
   EXPECT_THROW(choose_piece({12.5e-3, 0.1e-3, 0.4}, 55000, false), InputError);    // a film
