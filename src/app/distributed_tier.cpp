@@ -87,8 +87,9 @@ class DistributedTier : public NetworkTier {
       return std::find(part_.junction_id.begin(), part_.junction_id.end(), id) - part_.junction_id.begin();
     };
     if (comm_.is_root()) {
-      conditions_ = tree_conditions(c_, tree, mechanics_.hydrostatic, static_cast<std::uint32_t>(local(0)),
-                                    static_cast<std::uint32_t>(local(outlet)));
+      conditions_ = hemodynamics::conditions_of(driving_boundary(c_, tree, mechanics_.hydrostatic),
+                                                static_cast<std::uint32_t>(local(0)),
+                                                static_cast<std::uint32_t>(local(outlet)));
     }
   }
 

@@ -30,31 +30,15 @@ std::string describe_source(const Configuration& c) {
                      grouped(static_cast<long long>(TreePair::vessels_of(c.tree.generations))));
 }
 
-std::vector<network::Condition> tree_conditions(const Configuration& c, const TreePair& tree,
-                                                const hemodynamics::Hydrostatic& hydrostatic,
-                                                std::uint32_t inlet, std::uint32_t outlet) {
-  using Kind = network::Condition::Kind;
-  const hemodynamics::TreeBoundary b = hemodynamics::tree_boundary(c.hemodynamics);
-  const auto weight = [&](const network::Point& p) { return hydrostatic.pressure(p[0], p[1], p[2]); };
-  std::vector<network::Condition> conditions;
-  conditions.push_back(b.inlet_pressure ? network::Condition{inlet, Kind::pressure,
-                                                             *b.inlet_pressure - weight(tree.inlet()), 0}
-                                        : network::Condition{inlet, Kind::flow, *b.flow, 0});
-  conditions.push_back(
-      b.outlet_pressure ? network::Condition{outlet, Kind::pressure,
-                                             *b.outlet_pressure - weight(TreePair::mirrored(tree.inlet())), 0}
-                        : network::Condition{outlet, Kind::flow, -*b.flow, 0});
-  return conditions;
-}
-
 network::BoundedGraph make_graph_network(const Configuration& c,
                                          const hemodynamics::Hydrostatic& hydrostatic) {
   network::BoundedGraph network;
   if (c.network.source == "tree") {
     const TreePair tree(c.tree);
     network.graph = tree.materialise();
-    network.conditions = tree_conditions(c, tree, hydrostatic, 0,
-                                         static_cast<std::uint32_t>(std::uint64_t{1} << c.tree.generations));
+    network.conditions =
+        hemodynamics::conditions_of(driving_boundary(c, tree, hydrostatic), 0,
+                                    static_cast<std::uint32_t>(std::uint64_t{1} << c.tree.generations));
     return network;
   }
   network = network::read_network(c.network.files, c.network.file_length_unit, input::to_si);

@@ -22,12 +22,6 @@ std::string describe_source(const Configuration& c);
 network::BoundedGraph make_graph_network(const Configuration& c,
                                          const hemodynamics::Hydrostatic& hydrostatic);
 
-/// The two conditions of a tree between junctions `inlet` and `outlet`, without the weight of blood at their
-/// places.
-std::vector<network::Condition> tree_conditions(const Configuration& c, const network::TreePair& tree,
-                                                const hemodynamics::Hydrostatic& hydrostatic,
-                                                std::uint32_t inlet, std::uint32_t outlet);
-
 /// Adds the weight of blood to the pressures [J] of the solver.
 void add_weight(const network::Graph& graph, const hemodynamics::Hydrostatic& hydrostatic,
                 std::vector<double>& pressure);

@@ -55,7 +55,7 @@ class ImplicitTier : public NetworkTier {
     std::optional<TreeFlow>& flow = flow_;
     {
       const Stopwatch watch(spent);
-      flow.emplace(tree_, mechanics_.viscosity, boundary(), comm_,
+      flow.emplace(tree_, mechanics_.viscosity, driving_boundary(c_, tree_, mechanics_.hydrostatic), comm_,
                    c_.screening.top > 0 && mechanics_.variation.varies());
     }
     say(fmt::format("  flow found in {} ({} a vessel)", duration(spent), per_vessel(spent)));
@@ -93,14 +93,6 @@ class ImplicitTier : public NetworkTier {
     return fmt::format("{:.3g} ns", 1e9 * seconds / static_cast<double>(tree_.vessels()));
   }
   double weight(const network::Point& p) const { return mechanics_.hydrostatic.pressure(p[0], p[1], p[2]); }
-
-  /// The given pressures less the weight of blood at their places: what drives the flow.
-  hemodynamics::TreeBoundary boundary() const {
-    hemodynamics::TreeBoundary b = hemodynamics::tree_boundary(c_.hemodynamics);
-    if (b.inlet_pressure) *b.inlet_pressure -= weight(tree_.inlet());
-    if (b.outlet_pressure) *b.outlet_pressure -= weight(TreePair::mirrored(tree_.inlet()));
-    return b;
-  }
 
   /// Statistics and screening, in one go.
   void sweep(const TreeFlow& flow, NetworkSolution& s, const Say& say) const {
@@ -193,45 +185,8 @@ class ImplicitTier : public NetworkTier {
 
 }  // namespace
 
-void check_flow(NetworkSolution& s, const std::array<double, 2>& driving) {
-  const auto [low, high] = driving;
-  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
-    s.warnings.push_back("nothing flows: no difference of pressure drives blood through the network");
-  if (s.highest_reynolds > hemodynamics::laminar_reynolds_number) {
-    s.warnings.push_back(
-        fmt::format("the Reynolds number reaches {:.0f}; above {:.0f} flow is not laminar, and real "
-                    "resistances are higher than those of Eq. (9)",
-                    s.highest_reynolds, hemodynamics::laminar_reynolds_number));
-  }
-}
-
 std::unique_ptr<NetworkTier> make_implicit_tier(const Configuration& c, parallel::Communicator comm) {
   return std::make_unique<ImplicitTier>(c, comm);
-}
-
-hemodynamics::VesselMechanics mechanics_of(const Configuration& c) {
-  const network::WallParameters& w = c.network.wall;
-  hemodynamics::VesselMechanics m{.artery_wall = network::artery_wall(w),
-                                  .vein_wall = network::vein_wall(w),
-                                  .variation = network::WallVariation(c.network.weakness),
-                                  .numbered_by_id = c.network.source == "tree",
-                                  .young_modulus = w.young_modulus,
-                                  .poisson_ratio = w.poisson_ratio,
-                                  .viscosity = c.hemodynamics.viscosity,
-                                  .hydrostatic = {c.hemodynamics.density, {}}};
-  std::copy(c.hemodynamics.acceleration.begin(), c.hemodynamics.acceleration.end(),
-            m.hydrostatic.acceleration.begin());
-  if (c.network.source == "tree") m.variation.mark_in_tree(c.network.weakness, c.tree.generations);
-  return m;
-}
-
-screening::Criterion criterion_of(const Configuration& c) {
-  screening::Criterion criterion{c.screening.critical_stretch, c.network.wall.young_modulus,
-                                 c.network.wall.poisson_ratio, 0};
-  if (c.is_coupled()) {
-    criterion.outside_pressure = coupling::outside_everywhere(c.coupling);
-  }
-  return criterion;
 }
 
 }  // namespace rhexis::app

@@ -12,9 +12,12 @@
 
 #include "app/configuration.hpp"
 #include "coupling/vessel_in_network.hpp"
+#include "hemodynamics/hydrostatic.hpp"
+#include "hemodynamics/tree_flow.hpp"
 #include "hemodynamics/tree_statistics.hpp"
 #include "hemodynamics/vessel_lines.hpp"
 #include "network/graph.hpp"
+#include "network/tree_pair.hpp"
 #include "parallel/communicator.hpp"
 #include "screening/screening.hpp"
 
@@ -88,6 +91,10 @@ std::unique_ptr<NetworkTier> make_explicit_tier(const Configuration& c, parallel
 std::unique_ptr<NetworkTier> make_distributed_tier(const Configuration& c, parallel::Communicator comm);
 /// By network.tier, and prepared: throws InputError, complete with place. Collective.
 std::unique_ptr<NetworkTier> prepared_tier(const Configuration& c, parallel::Communicator comm);
+
+/// What drives the flow of a tree: its boundary with pressures less the weight of blood at their places.
+hemodynamics::TreeBoundary driving_boundary(const Configuration& c, const network::TreePair& tree,
+                                            const hemodynamics::Hydrostatic& hydrostatic);
 
 /// Warns where Eq. (9) does not hold, and where nothing flows: `driving`, Pa, are the pressures' lowest and
 /// highest without the weight of blood.

@@ -13,8 +13,7 @@ namespace rhexis::coupling {
 /// The steady flow, with the network's own conditions. Pressures are those that drive the flow: without the
 /// weight of blood (hemodynamics/hydrostatic.hpp).
 struct VesselState {
-  double inflow = 0,
-         outflow = 0;  ///< m3/s, into the network and out of it, wherever it does, without the leak
+  double inflow = 0, outflow = 0;     ///< m3/s, of the network at all its ends, without the leak
   double flow_from = 0, flow_to = 0;  ///< m3/s, into the vessel and out of it at its ends
   double leak = 0;                    ///< m3/s
   double pressure_from = 0, pressure_middle = 0, pressure_to = 0;  ///< Pa

@@ -98,14 +98,8 @@ ChangedTree::Result ChangedTree::solve(const std::vector<VesselChange>& changes)
     return h;
   };
   const Ends roots{ways.junction(), ways.junction()};
-  using Kind = network::Condition::Kind;
-  const TreeBoundary& given = flow_.boundary();
-  ways.conditions.push_back(given.inlet_pressure
-                                ? network::Condition{roots.artery, Kind::pressure, *given.inlet_pressure, 0}
-                                : network::Condition{roots.artery, Kind::flow, *given.flow, 0});
-  ways.conditions.push_back(given.outlet_pressure
-                                ? network::Condition{roots.vein, Kind::pressure, *given.outlet_pressure, 0}
-                                : network::Condition{roots.vein, Kind::flow, -*given.flow, 0});
+  for (const network::Condition& c : conditions_of(flow_.boundary(), roots.artery, roots.vein))
+    ways.conditions.push_back(c);
   Halves first_artery, last_vein;
   for (const Place& p : places_) {
     const Ends near = p.place == 1 ? roots : far.at(p.place / 2);

@@ -15,6 +15,17 @@ constexpr std::size_t subtrees_between_pauses = 32;
 
 }  // namespace
 
+std::vector<network::Condition> conditions_of(const TreeBoundary& b, std::uint32_t inlet,
+                                              std::uint32_t outlet) {
+  using Kind = network::Condition::Kind;
+  const auto at = [](std::uint32_t junction, std::optional<double> pressure, double flow) {
+    return pressure ? network::Condition{junction, Kind::pressure, *pressure, 0}
+                    : network::Condition{junction, Kind::flow, flow, 0};
+  };
+  return {at(inlet, b.inlet_pressure, b.flow.value_or(0)),
+          at(outlet, b.outlet_pressure, -b.flow.value_or(0))};
+}
+
 TreeFlow::TreeFlow(const network::TreePair& tree, const Viscosity& viscosity, const TreeBoundary& boundary,
                    parallel::Communicator comm, bool one_by_one)
     : tree_(tree),

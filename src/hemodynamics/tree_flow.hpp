@@ -17,6 +17,7 @@
 
 #include "hemodynamics/subtree.hpp"
 #include "hemodynamics/tree_law.hpp"
+#include "network/graph.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/communicator.hpp"
 
@@ -28,6 +29,10 @@ struct TreeBoundary {
   std::optional<double> outlet_pressure;  ///< Pa, at the near end of the last vein
   std::optional<double> flow;             ///< m3/s
 };
+
+/// The same as the conditions of a graph, at its junctions where blood enters and leaves the tree.
+std::vector<network::Condition> conditions_of(const TreeBoundary& boundary, std::uint32_t inlet,
+                                              std::uint32_t outlet);
 
 /// One vessel's part in the flow.
 struct VesselFlow {

@@ -24,11 +24,7 @@ ChangedTree::Result by_graph(const network::TreePair& tree, const std::vector<Ve
   }
   const auto end = static_cast<std::uint32_t>(std::size_t{1} << tree.generations());
   using Kind = network::Condition::Kind;
-  std::vector<network::Condition> conditions(2);
-  conditions[0] = given.inlet_pressure ? network::Condition{0, Kind::pressure, *given.inlet_pressure, 0}
-                                       : network::Condition{0, Kind::flow, *given.flow, 0};
-  conditions[1] = given.outlet_pressure ? network::Condition{end, Kind::pressure, *given.outlet_pressure, 0}
-                                        : network::Condition{end, Kind::flow, -*given.flow, 0};
+  std::vector<network::Condition> conditions = conditions_of(given, 0, end);
   std::vector<std::size_t> second;
   for (const VesselChange& c : changes) {
     const auto middle = static_cast<std::uint32_t>(graph.junctions++);
