@@ -155,8 +155,12 @@ void EnsembleRun::say_header() {
   console_.item("walls", fmt::format("{} (seed {}); spreads: strength {}, thickness {}, stiffness {}",
                                      e.samples, e.seed, text(e.strength_spread), text(e.thickness_spread),
                                      text(e.stiffness_spread)));
-  console_.item("samples", fmt::format("{}, {} of them done before", grouped(e.vessels()),
-                                       grouped(e.vessels() - static_cast<long long>(tasks_.size()))));
+  const auto done = e.vessels() - static_cast<long long>(tasks_.size());
+  const auto others = static_cast<long long>(earlier_) - done;
+  console_.item(
+      "samples",
+      fmt::format("{}, {} of them done before{}", grouped(e.vessels()), grouped(done),
+                  others > 0 ? fmt::format("; {} others in samples.csv count too", grouped(others)) : ""));
   say_surroundings();
 }
 

@@ -272,9 +272,12 @@ class Ensemble(unittest.TestCase):
         self.assertEqual(record["status"], "failed: interrupted")
         done = len(self.rows("out/samples.csv"))
         self.assertEqual((record["results"]["ensemble"]["samples"], record["results"]["ensemble"]["samples_left"]), (done, 1200 - done))
-        result = self.run_well("-o", "out", "--set", f"ensemble.samples={done // 3 + 1}")
-        new = 3 * (done // 3 + 1) - done
-        self.assertIn(f"{3 * (done // 3 + 1)} in all, {new} new", result.stdout)
+        walls = done // 3 + 2
+        result = self.run_well("-o", "out", "--set", f"ensemble.samples={walls}")
+        self.assertIn(f"{3 * walls} in all, {3 * walls - done} new", result.stdout)
+        self.assertNotIn("count too", result.stdout)
+        fewer = self.run_well("-o", "out", "--set", "ensemble.samples=1")
+        self.assertIn(f"3, 3 of them done before; {3 * (walls - 1)} others in samples.csv count too", fewer.stdout)
 
 
 if __name__ == "__main__":
