@@ -104,13 +104,13 @@ def elasticity(build, repeat, output):
     report(output / "table.csv",
            ["scheme", "across the wall", "spacing (um)", "error (%)", "core-s per ms", "range", "over ours at no larger error"], rows)
 
-    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    figure, axes = plt.subplots(figsize=(8, 4.5), layout="constrained")
     for name in SERIES:
         of_series = [case for case in cases if case[0] == name]
         axes.loglog([cost[c] for c in of_series], [100 * errors[c] for c in of_series], "o-", label=name)
     axes.set(xlabel="core-seconds per simulated millisecond", ylabel="error against Lame (%)")
     axes.grid(True, which="both", alpha=0.3)
-    axes.legend(fontsize=8)
+    axes.legend(fontsize=8, loc="center left", bbox_to_anchor=(1, 0.5))
     figure.savefig(output / "work_precision.png", dpi=150)
     print(output / "work_precision.png")
 
