@@ -305,6 +305,13 @@ class Network(unittest.TestCase):
                 if warning and "Reynolds" in warning:
                     self.assertGreater(record["results"]["network"]["highest_reynolds"], 2300)
 
+    def test_vtp_files_without_paraview_are_refused_at_once(self):
+        self.write("n.toml", TREE)
+        for command in ("check", "run"):
+            result = subprocess.run([RHEXIS, command, "n.toml", "--set", "network.vtp=true"], cwd=self.path, capture_output=True, text=True,
+                                    env={**os.environ, "RHEXIS_PLUGIN_DIR": "/none"}, timeout=60, check=False)
+            self.assert_refused(result, ["network.vtp=true", "ParaView"], command, ["n.toml"])
+
     def test_restart_is_for_vessels(self):
         self.write("n.toml", TREE)
         self.assert_refused(self.rhexis("run", "n.toml", "--restart", "x.h5"), ["--restart"], "restart", ["n.toml"])
