@@ -280,7 +280,7 @@ void resolve_network(Configuration& c, parallel::Communicator comm) {
     for (const input::ResolvedValue& value : c.resolved.values) {
       const bool of_trees = input::section_of(value.key) == "tree" || value.key == "flow.inlet_pressure" ||
                             value.key == "flow.outlet_pressure" || value.key == "flow.inlet_flow";
-      if (of_trees && given(c, value.key))
+      if (of_trees && value.origin != "default")
         throw InputError("says something of a tree; of a network from files, the files say it", value.key);
     }
     no_effect(c, "network.statistics", "on a network from files, whose vessels have no generations");

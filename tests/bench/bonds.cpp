@@ -92,7 +92,6 @@ void run(benchmark::State& state, const Wall& wall, int threads) {
     evaluated = body->bond_evaluations() - before;
     return Sample{seconds, flop_per_directed_bond * static_cast<double>(evaluated)};
   };
-  advance(1);  // touches all memory
   constexpr double least_seconds = 20e-3;
   const int steps = 1 + static_cast<int>(least_seconds / advance(1).seconds);
   const bool single = wall.bonds == "single";

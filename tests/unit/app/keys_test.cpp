@@ -1,15 +1,14 @@
 // The keys of the whole program, which the folders declare apart from each other, against each other; and
 // what is said of keys that a scene leaves without effect.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
 
 #include "app/configuration.hpp"
 #include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/values.hpp"
+#include "unit/output/temporary_directory.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -17,22 +16,15 @@ namespace {
 /// The warnings of an input of this text.
 std::vector<std::string> warnings_of(const std::string& text,
                                      const std::vector<std::string>& overrides = {}) {
-  const parallel::Communicator world(MPI_COMM_WORLD);
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("rhexis_keys_" + world.broadcast(std::to_string(getpid())));
+  const test::TemporaryDirectory folder;
   const std::string file = (folder / "scene.toml").string();
-  if (world.is_root()) {
-    std::filesystem::create_directories(folder);
-    std::ofstream(file) << text;
-  }
-  const auto warnings = read_configuration(file, overrides, world).warnings;
-  if (world.is_root()) std::filesystem::remove_all(folder);
-  return warnings;
+  const auto world = parallel::Communicator::world();
+  if (world.is_root()) std::ofstream(file) << text;
+  return read_configuration(file, overrides, world).warnings;
 }
 
 std::vector<std::string> warnings_of_input(const std::string& name, const std::string& override) {
-  return read_configuration(RHEXIS_SOURCE_DIR "/inputs/" + name, {override},
-                            parallel::Communicator(MPI_COMM_WORLD))
+  return read_configuration(RHEXIS_SOURCE_DIR "/inputs/" + name, {override}, parallel::Communicator::world())
       .warnings;
 }
 
