@@ -5,7 +5,7 @@ Everything is derived from the particles: their box and spacing set the camera a
 
 Drawn with VTK itself: ParaView's views (paraview.simple) draw the same, but take two seconds longer to start and four
 to five times as long for a picture. Most of the time goes into the work of the processor (no graphics card)
-on each pixel of each sphere. So each rank leaves out what its other particles hide, and the first rank draws the rest.
+on each sphere and its pixels. So each rank leaves out what its other particles hide, and the first rank draws the rest.
 """
 
 import math
@@ -20,6 +20,7 @@ from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkTextActor
 
 from picture_tools import HEIGHT, VIRIDIS, WIDTH, colours, gather, plain, reduce_over_ranks, round_up, write_png
+from visible_spheres import visible
 
 SPHERE = 1.2  # diameter of a sphere in spacings: neighbours touch, gaps between torn parts stay open
 AZIMUTH, ELEVATION = math.radians(22.5), math.radians(28)  # of the camera, about the vessel's axis z
@@ -42,31 +43,17 @@ def measure(particles):
     if particles.GetNumberOfPoints() > 1:
         rest = column(particles, "position") - column(particles, "displacement")
         low, high = rest.min(axis=0), rest.max(axis=0)
+        filled = (numpy.prod(high - low) / len(rest)) ** (1 / 3)  # the spacing if particles filled their box: too wide
         nearest = []
         for point in rest[:: max(1, len(rest) // 15)]:
-            squared = ((rest - point) ** 2).sum(axis=1)
+            near = rest[abs(rest[:, 2] - point[2]) <= 2 * filled]
+            squared = (((near if len(near) > 1 else rest) - point) ** 2).sum(axis=1)
             nearest.append(numpy.partition(squared, 1)[1])  # [0] is the point itself
         spacing = math.sqrt(numpy.median(nearest))
     low = reduce_over_ranks(low, vtkCommunicator.MIN_OP)
     high = reduce_over_ranks(high, vtkCommunicator.MAX_OP)
     spacing = reduce_over_ranks([spacing], vtkCommunicator.MIN_OP)[0]
     return low, high, spacing
-
-
-def extreme_of_neighbours(grid, reach, extreme):
-    """For each cell of a grid the extreme (numpy.maximum or numpy.minimum) of the square of cells around it.
-
-    Cells nearer than `reach` to the grid's border get minus infinity.
-    """
-    for axis in (0, 1):
-        result, width = numpy.moveaxis(grid, axis, 0), 1  # the extreme of `width` cells from each cell on
-        while width < 2 * reach + 1:
-            shift = min(width, 2 * reach + 1 - width)
-            result, width = extreme(result[:-shift], result[shift:]), width + shift
-        moved = numpy.full_like(numpy.moveaxis(grid, axis, 0), -math.inf)
-        moved[reach:-reach] = result
-        grid = numpy.moveaxis(moved, 0, axis)
-    return grid
 
 
 class VesselPicture:
@@ -93,9 +80,12 @@ class VesselPicture:
     def rows(self, particles, step, time_s, pressure_pa=None, note=""):
         """The picture of this moment [HEIGHT, WIDTH, 3] on the first rank, None on the others. Collective."""
         damage = column(particles, "damage")
+        position, displacement = column(particles, "position"), column(particles, "displacement")
         there = ~numpy.isnan(damage)  # where a thin spot leaves no particle, its damage is not a number
-        position, damage = column(particles, "position")[there], damage[there]
-        displacement_mm = 1e3 * numpy.sqrt((column(particles, "displacement")[there] ** 2).sum(axis=1))
+        if not there.all():
+            position, displacement, damage = position[there], displacement[there], damage[there]
+        position = position.astype(numpy.float32)
+        displacement_mm = 1e3 * numpy.sqrt(numpy.einsum("ij,ij->i", displacement, displacement))
         largest_mm, most_damage = reduce_over_ranks(
             [displacement_mm.max(initial=0.0), damage.max(initial=0.0)], vtkCommunicator.MAX_OP
         )
@@ -120,29 +110,12 @@ class VesselPicture:
         return vtk_to_numpy(pixels).reshape(HEIGHT, WIDTH, 3)[::-1]
 
     def _seen(self, position):
-        """The numbers of the particles that no others of this rank hide from the camera, and perhaps a few more.
-
-        In a grid of small cells across the view, the nearest particle that covers a cell (all of it) hides what lies
-        behind. A particle is seen if it is before that, or near it, in any cell which it may touch.
-        """
-        radius = 0.5 * self.sphere_pixels * 2 * self.scale / self.height
-        cell = radius / 5.66  # a disc covers the 7 x 7 cells around its centre, wherever this is in its cell,
-        covers, touches = 3, 6  # and touches no more than 13 x 13
-        across, up, depth = numpy.array([self.right, self.up, self.sight]) @ (position - self.focus).T
-        half_width = self.scale * self.width / self.height
-        inside = numpy.flatnonzero((abs(across) < half_width + radius) & (abs(up) < self.scale + radius))
-        if len(inside) == 0:
-            return inside
-        inside = inside[numpy.argsort(depth[inside])]  # so that the nearest is the last to be written below
-        across, up, depth = across[inside], up[inside], depth[inside].astype(numpy.float32)
-        border = 2 * touches
-        rows = border + ((up - up.min()) / cell).astype(int)
-        columns = border + ((across - across.min()) / cell).astype(int)
-        hidden_behind = numpy.full((rows.max() + border + 1, columns.max() + border + 1), -math.inf, numpy.float32)
-        hidden_behind[rows, columns] = depth
-        hidden_behind = extreme_of_neighbours(hidden_behind, covers, numpy.maximum)
-        hidden_behind = extreme_of_neighbours(hidden_behind, touches, numpy.minimum)
-        return inside[depth + radius > hidden_behind[rows, columns]]
+        """The numbers of the particles that no others of this rank hide from the camera, and perhaps a few more."""
+        pixels_per_m = self.height / (2 * self.scale)
+        axes = (numpy.array([self.up, self.right, self.sight]) * pixels_per_m).astype(numpy.float32)
+        up, across, depth = axes @ (position - self.focus.astype(numpy.float32)).T
+        radius = 0.5 * self.sphere_pixels
+        return visible(up + 0.5 * self.height, across + 0.5 * self.width, depth, radius, self.height, self.width)
 
     def _displacement_range(self, largest_mm):
         """Zero to the largest displacement so far, rounded up (1, 2, 5, 10 ...), so that few frames of a
@@ -179,7 +152,7 @@ class VesselPicture:
         self.window.SetOffScreenRendering(1)
         self.window.SetMultiSamples(0)
         self.window.SetSize(WIDTH, HEIGHT)
-        first, second = self.views = (
+        first, second = (
             [self._view(0, 0, 0.5, 1), self._view(0.5, 0, 1, 1)]
             if self.upright
             else [self._view(0, 0.5, 1, 1), self._view(0, 0, 1, 0.5)]
@@ -207,8 +180,10 @@ class VesselPicture:
         camera.ParallelProjectionOn()
         camera.SetParallelScale(self.scale)
         camera.SetFocalPoint(*self.focus)
-        camera.SetPosition(*(self.focus + 10 * (self.length + self.radius) * self.sight))
+        distance = 10 * (self.length + self.radius)
+        camera.SetPosition(*(self.focus + distance * self.sight))
         camera.SetViewUp(*self.up)
+        camera.SetClippingRange(0.1 * distance, 1.9 * distance)  # VTK would look for one in each picture
         self.window.AddRenderer(view)
         return view
 
@@ -241,8 +216,6 @@ class VesselPicture:
             body.SetPoints(points)
             body.SetVerts(vertices)
             body.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(values), deep=True))
-        for view in self.views:
-            view.ResetCameraClippingRange()
 
     def _set_displacement_range(self, top):
         if self.displacement_colours.GetRange()[1] == top:

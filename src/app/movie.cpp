@@ -54,7 +54,7 @@ std::string make_movie(const std::filesystem::path& images, const std::filesyste
   const int status = run_program(
       {"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-framerate", fmt::format("{}", frames_per_second),
        "-pattern_type", "glob", "-i", literally((images / longest->first).string()) + "_*.png", "-c:v",
-       "libx264", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", movie.string()});
+       "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", movie.string()});
   if (status == 127 || status == -1) return "ffmpeg could not be started; is it installed?";
   if (status != 0) return fmt::format("ffmpeg failed with status {}", status);
   return {};

@@ -1,85 +1,19 @@
-"""Pictures while the program runs, on a synthetic vessel and network (insitu_driver): pictures, failing scripts.
-
-Usage: test_insitu.py DRIVER PLUGIN_DIRECTORY SOURCE_DIRECTORY MPIRUN... [-- unittest arguments]
-No display is needed: DISPLAY is removed. Colours are compared in steps of 1/255.
-"""
+"""Pictures while the program runs, on a synthetic vessel and network (insitu_driver): pictures, failing scripts."""
 
 import json
-import os
-import subprocess
 import sys
-import tempfile
 import unittest
 import unittest.mock
 from pathlib import Path
 
 import numpy
-from matplotlib import image
 
-HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE))
-import synthetic_run
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from insitu_case import BUILT, ENVIRONMENT, NETWORK, SOURCE, VESSEL, DriverTest, like, main, read
 
-arguments = sys.argv[1 : sys.argv.index("--")] if "--" in sys.argv else sys.argv[1:]
-DRIVER, PLUGINS, SOURCE, MPIRUN = arguments[0], arguments[1], Path(arguments[2]), arguments[3:]
-VESSEL = SOURCE / "catalyst_scripts" / "vessel.py"
-NETWORK = SOURCE / "catalyst_scripts" / "network.py"
-ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "DISPLAY"} | {
-    "RHEXIS_PLUGIN_DIR": PLUGINS,
-    "RHEXIS_SCRIPT_TIMEOUT": "2",
-    "OMP_NUM_THREADS": "2",
-}
-BUILT = (Path(PLUGINS) / "librhexis_catalyst.so").exists()
 MINIMAL = 'from paraview.simple import *\nparticles = PVTrivialProducer(registrationName="particles")\n'
 RANK = "from paraview.vtk.vtkParallelCore import vtkMultiProcessController\n" \
        "rank = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()\n"
-
-
-def read(path):
-    """An image as whole numbers 0 ... 255, rows x columns x RGB."""
-    return numpy.rint(255 * image.imread(path)[..., :3]).astype(int)
-
-
-def like(picture, colour, tolerance=12):
-    return (numpy.abs(picture - colour) <= tolerance).all(axis=-1)
-
-
-def complaints(stderr):
-    """What a program said on stderr, but for the MPI library's remarks on containers without /sys."""
-    return "".join(line for line in stderr.splitlines(keepends=True) if not line.startswith("[hwloc/linux]"))
-
-
-class DriverTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.images = self.folder / "images"
-
-    def script(self, text, name="script.py"):
-        path = self.folder / name
-        path.write_text(text)
-        return path
-
-    def run_driver(self, *scripts, frames=2, ranks=1, renderer="automatic", status=0, channels="particles"):
-        """Output lines of a run; errors of VTK or Python on stderr fail the test."""
-        command = [*MPIRUN, "-n", str(ranks)] if ranks > 1 else []
-        command += [DRIVER, str(self.images), renderer, channels, str(frames), *map(str, scripts)]
-        result = subprocess.run(command, env=ENVIRONMENT, cwd=self.folder, capture_output=True, text=True, timeout=50)
-        self.assertEqual(result.returncode, status, result.stdout + result.stderr)
-        errors = complaints(result.stderr)
-        if status == 0:
-            self.assertEqual(errors, "")
-        self.errors = errors
-        return result.stdout.splitlines()
-
-    def failure(self, *scripts, ranks=1, frames=2, channels="particles"):
-        """The one message that every rank gives when a script fails."""
-        messages = [line for line in self.run_driver(*scripts, ranks=ranks, frames=frames, status=3, channels=channels) if "error:" in line]
-        self.assertEqual(len(messages), ranks)
-        self.assertEqual(len(set(messages)), 1)
-        self.assertNotIn("Traceback", self.errors)
-        return messages[0].removeprefix("error: ")
 
 
 @unittest.skipUnless(BUILT, "built without ParaView")
@@ -356,49 +290,5 @@ class Failures(DriverTest):
                       self.errors)
 
 
-@unittest.skipUnless(BUILT, "built without ParaView")
-class Afterwards(DriverTest):
-    def test_a_saved_network_gives_the_picture_of_the_run(self):
-        scripts = SOURCE / "postprocessing"
-        subprocess.run([Path(DRIVER).with_name("write_network"), self.folder, "network:spatial"], check=True)
-        self.run_driver(NETWORK, channels="network:spatial")
-        during = read(self.images / "network_000050.png")
-        result = subprocess.run(
-            [scripts / "pvpython_headless", scripts / "render_network.py", self.folder / "network.xdmf", "-o",
-             self.folder / "after"], env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
-        self.assertEqual((result.returncode, complaints(result.stderr)), (0, ""), result.stdout)
-        after = read(self.folder / "after" / "network_000050.png")
-        self.assertLess((numpy.abs(after - during).max(axis=-1) > 8).mean(), 1e-3)
-
-    def test_saved_particles_give_pictures_a_movie_and_curves(self):
-        scripts = SOURCE / "postprocessing"
-        with tempfile.TemporaryDirectory() as name:
-            folder = Path(name)
-            synthetic_run.write(folder, frames=2)
-            for command in (
-                [scripts / "pvpython_headless", scripts / "render_particles.py", folder / "particles.xdmf"],
-                [scripts / "make_movie.sh", folder / "images"],
-                ["/usr/bin/python3", scripts / "plot_history.py", folder / "history.csv"],
-            ):
-                result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
-                self.assertEqual((result.returncode, complaints(result.stderr)), (0, ""), result.stdout)
-            self.assertEqual(read(folder / "images" / "vessel_000050.png").shape, (720, 1280, 3))
-            self.assertEqual(read(folder / "history.png").shape[1], 1080)
-            self.assertGreater((folder / "movie.mp4").stat().st_size, 10_000)
-            render = [scripts / "pvpython_headless", scripts / "render_network.py"]
-            for file, message in (("particles.xdmf", "holds no flow and no kind and no pressure and no radius"),
-                                  ("history.csv", "is not the network.xdmf of a run")):
-                result = subprocess.run([*render, folder / file], env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
-                self.assertEqual(result.returncode, 1, result.stderr)
-                self.assertIn(message, result.stderr)
-                self.assertNotIn("Traceback", result.stderr)
-            # A run that was only begun has nothing to draw.
-            (folder / "history.csv").write_text((folder / "history.csv").read_text().splitlines()[0] + "\n")
-            result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
-            self.assertEqual(result.returncode, 1)
-            self.assertIn("history.csv is not the history.csv of a run (no rows)", result.stderr)
-
-
 if __name__ == "__main__":
-    rest = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-    unittest.main(argv=[sys.argv[0], *rest])
+    main()

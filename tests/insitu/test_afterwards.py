@@ -1,0 +1,60 @@
+"""Pictures, movies and curves of saved files."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import synthetic_run
+from insitu_case import BUILT, DRIVER, ENVIRONMENT, NETWORK, SOURCE, DriverTest, complaints, main, read
+
+
+@unittest.skipUnless(BUILT, "built without ParaView")
+class Afterwards(DriverTest):
+    def test_a_saved_network_gives_the_picture_of_the_run(self):
+        scripts = SOURCE / "postprocessing"
+        subprocess.run([Path(DRIVER).with_name("write_network"), self.folder, "network:spatial"], check=True)
+        self.run_driver(NETWORK, channels="network:spatial")
+        during = read(self.images / "network_000050.png")
+        result = subprocess.run(
+            [scripts / "pvpython_headless", scripts / "render_network.py", self.folder / "network.xdmf", "-o",
+             self.folder / "after"], env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
+        self.assertEqual((result.returncode, complaints(result.stderr)), (0, ""), result.stdout)
+        after = read(self.folder / "after" / "network_000050.png")
+        self.assertLess((numpy.abs(after - during).max(axis=-1) > 8).mean(), 1e-3)
+
+    def test_saved_particles_give_pictures_a_movie_and_curves(self):
+        scripts = SOURCE / "postprocessing"
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            synthetic_run.write(folder, frames=2)
+            for command in (
+                [scripts / "pvpython_headless", scripts / "render_particles.py", folder / "particles.xdmf"],
+                [scripts / "make_movie.sh", folder / "images"],
+                ["/usr/bin/python3", scripts / "plot_history.py", folder / "history.csv"],
+            ):
+                result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
+                self.assertEqual((result.returncode, complaints(result.stderr)), (0, ""), result.stdout)
+            self.assertEqual(read(folder / "images" / "vessel_000050.png").shape, (720, 1280, 3))
+            self.assertEqual(read(folder / "history.png").shape[1], 1080)
+            self.assertGreater((folder / "movie.mp4").stat().st_size, 10_000)
+            render = [scripts / "pvpython_headless", scripts / "render_network.py"]
+            for file, message in (("particles.xdmf", "holds no flow and no kind and no pressure and no radius"),
+                                  ("history.csv", "is not the network.xdmf of a run")):
+                result = subprocess.run([*render, folder / file], env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertIn(message, result.stderr)
+                self.assertNotIn("Traceback", result.stderr)
+            # A run that was only begun has nothing to draw.
+            (folder / "history.csv").write_text((folder / "history.csv").read_text().splitlines()[0] + "\n")
+            result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("history.csv is not the history.csv of a run (no rows)", result.stderr)
+
+
+if __name__ == "__main__":
+    main()
