@@ -20,12 +20,19 @@ def read_frames(path):
     return frames
 
 
+def positive(text):
+    number = int(text)
+    if number < 1:
+        raise ValueError(text)
+    return number
+
+
 def draw_series(description, kind, image_name, point_fields, cell_fields, draw):
     """Calls draw(image path, data, step, time in s) for each moment of the file named on the command line."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument(kind, type=Path, help=f"{kind}.xdmf of a run")
     parser.add_argument("-o", "--output", type=Path, help="folder of the images")
-    parser.add_argument("--every", type=int, default=1, metavar="N", help="only every Nth moment")
+    parser.add_argument("--every", type=positive, default=1, metavar="N", help="only every Nth moment")
     arguments = parser.parse_args()
     path = getattr(arguments, kind)
     if not path.exists():

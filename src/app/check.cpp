@@ -82,13 +82,17 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
                                           quantity(lattice.row_spacing, "m")));
   console.item("horizon", quantity(lattice.horizon, "m") +
                               fmt::format(" ({:.4g} spacings)", lattice.horizon / lattice.spacing));
-  console.item("particles", fmt::format("{} = {} columns x {} rows", grouped(lattice.particles()),
-                                        lattice.section.size(), lattice.rows));
-  console.item("bonds", fmt::format("{}, at most {} a particle",
+  const peridynamics::BodySetup setup = peridynamics::make_setup(c.vessel, lattice, families, c.time_step);
+  const std::int64_t absent = setup.thin_spots.absent();
+  console.item(
+      "particles",
+      fmt::format("{} = {} columns x {} rows{}", grouped(lattice.particles() - absent),
+                  lattice.section.size(), lattice.rows,
+                  absent > 0 ? fmt::format(" less the {} that thin spots leave out", grouped(absent)) : ""));
+  console.item("bonds", fmt::format("{}{}, at most {} a particle", absent > 0 ? "fewer than " : "",
                                     grouped(peridynamics::count_bonds(lattice, families, periodic)),
                                     peridynamics::largest_family(lattice, families, periodic)));
-  const peridynamics::ElasticError error = peridynamics::elastic_error(
-      c.vessel, peridynamics::make_setup(c.vessel, lattice, families, c.time_step));
+  const peridynamics::ElasticError error = peridynamics::elastic_error(c.vessel, setup);
   console.item("accuracy",
                fmt::format("{:.2g} % off Lame's static expansion, evenly over the wall to {:.2g} % "
                            "(surface correction {}, layer {})",
@@ -98,8 +102,7 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));
-  const double limit = peridynamics::linear_time_step_limit(
-      peridynamics::make_setup(c.vessel, lattice, families, c.time_step));
+  const double limit = peridynamics::linear_time_step_limit(setup);
   console.item("instability",
                fmt::format("begins at {} where strains are small, {:.2f} times the stable step",
                            quantity(limit, "s"), limit / c.stable_time_step));

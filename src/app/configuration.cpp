@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/scene_keys.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "ensemble/walls.hpp"
@@ -14,11 +15,11 @@
 #include "network/network_file.hpp"
 #include "network/vtp_network.hpp"
 #include "parallel/together.hpp"
-#include "peridynamics/particle_source.hpp"
 #include "peridynamics/pressure_layer.hpp"
 #include "peridynamics/schedule.hpp"
 #include "peridynamics/strength.hpp"
 #include "peridynamics/surface_correction.hpp"
+#include "peridynamics/thin_spots.hpp"
 #include "peridynamics/time_steps.hpp"
 
 namespace rhexis::app {
@@ -48,22 +49,29 @@ void no_effect(Configuration& c, const std::string& key, const std::string& wher
 }
 
 std::string read_on_root(const std::string& file, parallel::Communicator comm) {
-  std::string text, error;
-  if (comm.is_root()) {
-    try {
-      text = input::read_text(file);
-    } catch (const InputError& e) {
-      error = e.what();
-    }
-  }
-  error = comm.broadcast(error);
-  if (!error.empty()) throw InputError(error);
+  std::string text;
+  parallel::on_root<InputError>(comm, [&] { text = input::read_text(file); });
   return comm.broadcast(text);
+}
+
+/// A script is a Python file, or a package.
+void refuse_what_is_no_script(const std::vector<std::string>& files) {
+  for (const std::filesystem::path file : files) {
+    if (file.extension() == ".py" || std::filesystem::exists(file / "__init__.py")) continue;
+    throw InputError(file.string() + " is no Python file (.py), nor a folder with __init__.py",
+                     "insitu.scripts");
+  }
 }
 
 void settle_time_step(Configuration& c) {
   const peridynamics::Lattice lattice = peridynamics::make_lattice(c.vessel);
-  peridynamics::make_pressure_layer(c.vessel, lattice);  // throws where no particle would be loaded
+  const peridynamics::PressureLayer layer =
+      peridynamics::make_pressure_layer(c.vessel, lattice);  // throws where no particle would be loaded
+  const bool thinned = std::ranges::any_of(c.vessel.spots.thickness, [](double share) { return share < 1; });
+  if (thinned && peridynamics::ThinSpots(c.vessel, lattice, layer).absent() == 0)
+    c.warnings.push_back(
+        "spot.thickness has no effect: a wall is thinned by whole particles, and none lies "
+        "outside of what is left; take a smaller discretisation.spacing");
   const peridynamics::TimeSteps time =
       peridynamics::time_steps(c.vessel, lattice, peridynamics::make_families(c.vessel, lattice));
   c.stable_time_step = time.stable;
@@ -82,150 +90,19 @@ void find_files(std::vector<std::string>& files, const std::string& key, const s
                 const std::string& input_file, parallel::Communicator comm) {
   namespace fs = std::filesystem;
   for (std::string& file : files) {
-    std::string found, error;
-    if (comm.is_root()) {
+    std::string found;
+    parallel::on_root<InputError>(comm, [&] {
       const fs::path beside = fs::path(input_file).parent_path() / file;
-      if (fs::exists(file)) {
-        found = fs::canonical(file).string();
-      } else if (fs::exists(beside)) {
-        found = fs::canonical(beside).string();
-      } else {
-        const std::string here = fs::absolute(file).lexically_normal().string(),
-                          there = fs::absolute(beside).lexically_normal().string();
-        error = "there is no " + what + " " + here + (there == here ? "" : " or " + there);
+      for (const fs::path& path : {fs::path(file), beside}) {
+        if (found.empty() && fs::exists(path)) found = fs::canonical(path).string();
       }
-    }
-    error = comm.broadcast(error);
-    if (!error.empty()) throw InputError(error, key);
+      if (!found.empty()) return;
+      const std::string here = fs::absolute(file).lexically_normal().string(),
+                        there = fs::absolute(beside).lexically_normal().string();
+      throw InputError("there is no " + what + " " + here + (there == here ? "" : " or " + there), key);
+    });
     file = comm.broadcast(found);
   }
-}
-
-void append(ParameterList& all, const ParameterList& part) {
-  all.insert(all.end(), part.begin(), part.end());
-}
-
-ParameterList declare_scene(Configuration& c) {
-  return {{"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
-          {"scene.model",
-           &c.model,
-           "",
-           "\"vessel\"",
-           "What is simulated: the rupture of one vessel's wall; the flow in a network of vessels; both: the "
-           "rupture of a vessel of a network; or how probably a vessel ruptures, from many walls "
-           "whose properties scatter.",
-           "Sec. 3.3",
-           {},
-           {"vessel", "network", "coupled", "ensemble"}}};
-}
-
-ParameterList declare_vessel(Configuration& c) {
-  ParameterList all = peridynamics::declare(c.vessel);
-  std::vector<std::string> fields;
-  for (const FieldInfo& field : peridynamics::ParticleSource::all_fields()) fields.emplace_back(field.name);
-  append(all, output::declare(c.output, fields));
-  return all;
-}
-
-ParameterList declare_network(Configuration& c) {
-  ParameterList all = network::declare(c.network);
-  append(all, hemodynamics::declare(c.hemodynamics));
-  append(all, screening::declare(c.screening));
-  return all;
-}
-
-/// Keys of a network that its vessel takes over where they are coupled.
-bool vessel_knows(const std::string& key) {
-  return key == "wall.young_modulus" || key == "wall.poisson_ratio" || key == "screening.critical_stretch";
-}
-
-/// Keys of a vessel that its network takes over where they are coupled.
-bool network_knows(const std::string& key) {
-  return input::section_of(key) == "vessel" || key == "load.pressure" || key == "load.table" ||
-         key == "load.blood_density";
-}
-
-ParameterList declare_coupled(Configuration& c) {
-  ParameterList all = coupling::declare(c.coupling);
-  for (const Parameter& parameter : declare_vessel(c)) {
-    if (!network_knows(parameter.key)) all.push_back(parameter);
-  }
-  for (const Parameter& parameter : declare_network(c)) {
-    if (!vessel_knows(parameter.key)) all.push_back(parameter);
-  }
-  return all;
-}
-
-/// Keys of a vessel that an ensemble takes over, or that do nothing there: walls take a stable time step
-/// each, and are simulated to the onset of rupture, before any venting and without output.
-bool ensemble_settles(const std::string& key) {
-  return input::section_of(key) == "output" || key == "load.pressure" || key == "load.table" ||
-         key == "load.venting" || key == "load.supply_area" || key == "load.discharge_coefficient" ||
-         key == "load.blood_density" || key == "time.step" || key == "time.allow_unstable";
-}
-
-ParameterList declare_ensemble(Configuration& c) {
-  ParameterList all = ensemble::declare(c.ensemble);
-  for (Parameter& parameter : declare_vessel(c)) {
-    if (parameter.key == "load.schedule") std::erase(parameter.choices, "table");
-    if (!ensemble_settles(parameter.key)) all.push_back(parameter);
-  }
-  return all;
-}
-
-/// The keys of the scene's model, as the document gives it; a key of another model's is refused.
-ParameterList declare_model(Configuration& c, const input::Document& document) {
-  std::pair<std::string, ParameterList> models[] = {{"vessel", declare_vessel(c)},
-                                                    {"network", declare_network(c)},
-                                                    {"coupled", declare_coupled(c)},
-                                                    {"ensemble", declare_ensemble(c)}};
-  for (auto& [name, keys] : models) {
-    if (name == "vessel") append(keys, peridynamics::declare_start(c.vessel));
-    if (name != "ensemble") append(keys, insitu::declare(c.insitu));
-  }
-  std::string model = "vessel";
-  for (const input::Entry& entry : document.entries) {
-    if (entry.key != "scene.model") continue;
-    if (const auto* text = std::get_if<std::string>(&entry.value.content)) model = *text;
-  }
-  const ParameterList* chosen = nullptr;
-  for (const auto& [name, keys] : models) {
-    if (name == model) chosen = &keys;
-  }
-  if (chosen == nullptr) return declare(c);  // the reader will refuse the model
-  const auto has_section = [](const ParameterList& keys, const std::string& section) {
-    const auto sections = input::sections_of(keys);
-    return std::find(sections.begin(), sections.end(), section) != sections.end();
-  };
-  const auto has_key = [](const ParameterList& keys, const std::string& key) {
-    return input::find(keys, key) != nullptr;
-  };
-  const auto refuse = [&](const std::string& place, const std::string& what, const std::string& name,
-                          const auto& has) {
-    if (has(*chosen, name)) return;
-    for (const auto& [other, keys] : models) {
-      if (!has(keys, name)) continue;
-      throw InputError(place + ": " + what + " belongs to scenes with scene.model = \"" + other +
-                       "\"; this scene's is \"" + model + "\"");
-    }
-  };
-  for (const input::Section& section : document.sections) {
-    refuse(document.file + ":" + std::to_string(section.line), "section [" + section.name + "]", section.name,
-           has_section);
-  }
-  for (const input::Entry& entry : document.entries) {
-    const std::string key = input::without_table(entry.key);
-    const std::string section = input::section_of(key);
-    refuse(document.place(entry), "section [" + section + "]", section, has_section);
-    if (model == "coupled" && network_knows(entry.key))
-      throw InputError(document.place(entry) + ": the network says this of a coupled vessel");
-    if (model == "coupled" && vessel_knows(entry.key))
-      throw InputError(document.place(entry) + ": section [material] says this of a coupled network");
-    refuse(document.place(entry), "this key", key, has_key);
-  }
-  ParameterList all = declare_scene(c);
-  append(all, *chosen);
-  return all;
 }
 
 void resolve_vessel(Configuration& c) {
@@ -329,6 +206,7 @@ void resolve_coupling(Configuration& c) {
   if (c.vessel.schedule == "table")
     throw InputError("the network says the pressure; a schedule by table is for scenes of one vessel",
                      "load.schedule");
+  if (c.vessel.spacing) no_effect(c, "coupling.resolution", "where discretisation.spacing is given");
   if (p.window && *p.window > c.vessel.end_time)
     throw InputError("longer than the run, time.end = " + quantity(c.vessel.end_time, "s"),
                      "coupling.window");
@@ -390,17 +268,6 @@ void resolve_wall(Configuration& c) {
   }
 }
 
-ParameterList declare(Configuration& c) {
-  ParameterList all = declare_scene(c);
-  append(all, declare_vessel(c));
-  append(all, peridynamics::declare_start(c.vessel));
-  append(all, declare_network(c));
-  append(all, coupling::declare(c.coupling));
-  append(all, ensemble::declare(c.ensemble));
-  append(all, insitu::declare(c.insitu));
-  return all;
-}
-
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
                                  parallel::Communicator comm) {
   Configuration c;
@@ -420,7 +287,14 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
       resolve_network(c, comm);
       if (c.is_coupled()) resolve_coupling(c);
     }
-    if (c.insitu.enabled) find_files(c.insitu.scripts, "insitu.scripts", "Catalyst script", c.file, comm);
+    if (c.insitu.scripts.empty()) {
+      for (const char* key : {"insitu.every_steps", "insitu.renderer"})
+        no_effect(c, key, "without insitu.scripts");
+    }
+    if (c.insitu.enabled) {
+      find_files(c.insitu.scripts, "insitu.scripts", "Catalyst script", c.file, comm);
+      parallel::on_root<InputError>(comm, [&] { refuse_what_is_no_script(c.insitu.scripts); });
+    }
   } catch (const InputError& error) {
     throw input::located(error, c.resolved);
   }

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
-#include <sstream>
 
 #include "app/interrupt.hpp"
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/text_file.hpp"
 #include "ensemble/sample_table.hpp"
 #include "input/difference.hpp"
 #include "output/atomic_file.hpp"
+#include "parallel/exchange.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::app {
@@ -36,36 +36,6 @@ bool only_chooses_samples(const std::string& key) {
                                "ensemble.pressure_count",
                                "ensemble.samples"};
   return std::find(free.begin(), free.end(), key) != free.end();
-}
-
-std::string whole_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-/// Samples as numbers, for ranks to tell each other.
-constexpr std::size_t numbers_per_sample = 10;
-
-std::array<double, numbers_per_sample> to_numbers(const Sample& s) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  return {
-      s.pressure,          static_cast<double>(s.wall), s.factors.strength,     s.factors.thickness,
-      s.factors.stiffness, s.ruptured ? 1.0 : 0.0,      s.onset.value_or(none), s.first_break.value_or(none),
-      s.max_displacement,  static_cast<double>(s.steps)};
-}
-
-Sample from_numbers(const double* n) {
-  const auto optional = [](double x) { return std::isnan(x) ? std::nullopt : std::optional<double>(x); };
-  return {.pressure = n[0],
-          .wall = std::llround(n[1]),
-          .factors = {n[2], n[3], n[4]},
-          .ruptured = n[5] == 1,
-          .onset = optional(n[6]),
-          .first_break = optional(n[7]),
-          .max_displacement = n[8],
-          .steps = std::llround(n[9])};
 }
 
 }  // namespace
@@ -211,34 +181,14 @@ bool EnsembleRun::run_round(std::size_t first, std::size_t count) {
     } catch (const std::exception& error) {
       failure = error.what();
     }
-    finished = gather(own, count);
+    finished = parallel::all_gather(comm_, own).records;
+    std::sort(finished.begin(), finished.end(), ensemble::comes_before);
   }
   keep(finished);
   failure = comm_.first_non_empty(failure);
   if (!failure.empty()) throw RunError(failure);
   const bool asked = comm_.all_reduce(std::int64_t{InterruptGuard::requested()}, parallel::Reduce::max) != 0;
   return asked && samples_.size() - earlier_ < tasks_.size();
-}
-
-/// The finished samples of all ranks, in order, on every rank. `count`: at most.
-std::vector<Sample> EnsembleRun::gather(const std::vector<Sample>& own, std::size_t count) const {
-  // Every sample has a place that one rank writes to; to add zeros is exact.
-  const auto ranks = static_cast<std::size_t>(comm_.size());
-  const std::size_t each = (count + ranks - 1) / ranks;
-  std::vector<double> numbers(each * ranks * numbers_per_sample);
-  auto place = numbers.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(comm_.rank()) * each *
-                                                             numbers_per_sample);
-  for (const Sample& s : own) {
-    const auto values = to_numbers(s);
-    place = std::copy(values.begin(), values.end(), place);
-  }
-  comm_.all_reduce(numbers, parallel::Reduce::sum);
-  std::vector<Sample> all;
-  for (std::size_t i = 0; i < numbers.size(); i += numbers_per_sample) {
-    if (numbers[i] > 0) all.push_back(from_numbers(&numbers[i]));  // a sample has a pressure
-  }
-  std::sort(all.begin(), all.end(), ensemble::comes_before);
-  return all;
 }
 
 void EnsembleRun::keep(const std::vector<Sample>& finished) {

@@ -31,7 +31,6 @@ class EnsembleRun : private RunBase {
   void say_header();
   void run_samples();
   bool run_round(std::size_t first, std::size_t count);
-  std::vector<ensemble::Sample> gather(const std::vector<ensemble::Sample>& own, std::size_t count) const;
   void keep(const std::vector<ensemble::Sample>& finished);
   void finish();
   void say_summary();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string_view>
 #include <vector>
 
@@ -42,19 +43,34 @@ std::string literally(const std::string& path) {
 
 std::string make_movie(const std::filesystem::path& images, const std::filesystem::path& movie,
                        double frames_per_second) {
-  std::map<std::string, int> series;
+  struct Series {
+    int pictures = 0;
+    std::set<std::size_t> digits = {};
+  };
+  std::map<std::string, Series> all;
   for (const auto& entry : std::filesystem::directory_iterator(images)) {
     const std::string name = output::picture_series(entry.path());
-    if (!name.empty()) ++series[name];
+    if (name.empty()) continue;
+    ++all[name].pictures;
+    all[name].digits.insert(entry.path().stem().string().size() - name.size() - 1);
   }
-  const auto longest = std::max_element(series.begin(), series.end(),
-                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (longest == series.end()) return "there are no numbered pictures";
-  if (longest->second < 2) return "there is one picture only";
-  const int status = run_program(
-      {"ffmpeg", "-nostdin", "-y", "-loglevel", "error", "-framerate", fmt::format("{}", frames_per_second),
-       "-pattern_type", "glob", "-i", literally((images / longest->first).string()) + "_*.png", "-c:v",
-       "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", movie.string()});
+  const auto longest = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return a.second.pictures < b.second.pictures;
+  });
+  if (longest == all.end()) return "there are no numbered pictures";
+  const auto& [name, series] = *longest;
+  if (series.pictures < 2) return "there is one picture only";
+  std::vector<std::string> command{"ffmpeg", "-nostdin", "-y", "-loglevel", "error"};
+  for (const std::size_t digits : series.digits) {  // ffmpeg sorts names as text
+    const std::string pattern = literally((images / name).string()) + '_' + std::string(digits, '?') + ".png";
+    command.insert(command.end(), {"-framerate", fmt::format("{}", frames_per_second), "-pattern_type",
+                                   "glob", "-i", pattern});
+  }
+  command.insert(
+      command.end(),
+      {"-filter_complex", fmt::format("concat=n={},pad=ceil(iw/2)*2:ceil(ih/2)*2", series.digits.size()),
+       "-c:v", "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", movie.string()});
+  const int status = run_program(std::move(command));
   if (status == 127 || status == -1) return "ffmpeg could not be started; is it installed?";
   if (status != 0) return fmt::format("ffmpeg failed with status {}", status);
   return {};

@@ -41,8 +41,8 @@ class NetworkCoupling {
   /// The same, and begins coupling.csv where coupling is two-way.
   void open(const std::filesystem::path& directory);
 
-  /// Largest net pressure in the vessel by the last exchange, Pa; `profile` is relative to it.
-  double pressure() const { return load_.largest(); }
+  /// Largest net pressure on the simulated wall by the last exchange, Pa; `profile` is relative to it.
+  double pressure() const { return coupling::largest_load(load_, data_, piece_); }
   std::vector<double> profile(std::int64_t rows, double row_spacing) const;
 
   /// Whether a window ends at this step.

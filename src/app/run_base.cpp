@@ -24,7 +24,7 @@ RunBase::RunBase(Configuration configuration, RunOptions options, parallel::Comm
       started_(options_.started) {}
 
 void RunBase::open_directory(output::EarlierResults earlier) {
-  output::prepare_directory(options_.directory, earlier, comm_);
+  directory_held_ = output::prepare_directory(options_.directory, earlier, comm_);
 }
 
 void RunBase::open_record(std::optional<std::int64_t> first_step) {

@@ -68,6 +68,7 @@ class RunBase {
   void say_cost(const output::Performance& p);
 
   Configuration c_;
+  std::shared_ptr<const void> directory_held_;  ///< for this run alone
   RunOptions options_;
   parallel::Communicator comm_;
   Console console_;

@@ -61,7 +61,8 @@ Ending VesselRun::run() {
 void VesselRun::build() {
   lattice_ = peridynamics::make_lattice(c_.vessel);
   peridynamics::BondFamilies families = peridynamics::make_families(c_.vessel, lattice_);
-  const bool periodic = peridynamics::end_condition(c_.vessel) == peridynamics::EndCondition::axial_periodic;
+  const peridynamics::EndCondition ends = peridynamics::end_condition(c_.vessel);
+  const bool periodic = ends == peridynamics::EndCondition::axial_periodic;
   results_.family_max = peridynamics::largest_family(lattice_, families, periodic);
   results_.time_step_s = c_.time_step;
   results_.stable_time_step_s = c_.stable_time_step;
@@ -72,7 +73,7 @@ void VesselRun::build() {
   results_.particles = lattice_.particles() - thin_spots.absent();
   results_.bonds = body_->bonds();
   source_ = std::make_unique<peridynamics::ParticleSource>(*body_);
-  gauge_ = std::make_unique<peridynamics::OpeningGauge>(lattice_, *body_, comm_, thin_spots);
+  gauge_ = std::make_unique<peridynamics::OpeningGauge>(lattice_, *body_, comm_, ends, thin_spots);
   if (coupling_ == nullptr) return;
   lumen_ = std::make_unique<peridynamics::LumenGauge>(lattice_, *body_, comm_);
   take_load();

@@ -10,10 +10,6 @@
 
 namespace rhexis::coupling {
 
-double AxialLoad::largest() const {
-  return *std::max_element(pressure.begin(), pressure.end());
-}
-
 double AxialLoad::at(double share) const {
   const std::size_t half = share < 0.5 ? 0 : 1;
   return std::lerp(pressure[half], pressure[half + 1], 2 * share - static_cast<double>(half));
@@ -68,10 +64,17 @@ double clamped_reach(double mid_radius, double wall_thickness, double poisson_ra
          std::pow(3 * (1 - poisson_ratio * poisson_ratio), 0.25);
 }
 
+double largest_load(const AxialLoad& load, const VesselData& v, const Piece& piece) {
+  const double first = std::clamp(piece.start / v.length, 0.0, 1.0),
+               last = std::clamp((piece.start + piece.length) / v.length, 0.0, 1.0);
+  const double ends = std::max(load.at(first), load.at(last));
+  return first < 0.5 && last > 0.5 ? std::max(ends, load.pressure[1]) : ends;
+}
+
 std::vector<double> axial_profile(const AxialLoad& load, const VesselData& v, const Piece& piece,
                                   std::int64_t rows, double row_spacing) {
   std::vector<double> profile(static_cast<std::size_t>(rows), 1.0);
-  const double largest = load.largest();
+  const double largest = largest_load(load, v, piece);
   if (!(largest > 0)) return profile;
   for (std::size_t row = 0; row < profile.size(); ++row) {
     const double z = piece.start + (static_cast<double>(row) + 0.5) * row_spacing;

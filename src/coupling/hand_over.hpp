@@ -18,8 +18,6 @@ struct VesselData {
 struct AxialLoad {
   std::array<double, 3> pressure{};
 
-  /// The largest; loads are kept relative to it.
-  double largest() const;
   /// At a share of the vessel's length, 0 to 1.
   double at(double share) const;
 };
@@ -53,7 +51,10 @@ Piece hand_over(const VesselData& vessel, bool always_paper, peridynamics::Param
 /// (Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells, Sec. 114).
 double clamped_reach(double mid_radius, double wall_thickness, double poisson_ratio);
 
-/// The load at each of the rows of particles of the piece, relative to the largest: 1 where the load is
+/// The largest load on the piece, Pa.
+double largest_load(const AxialLoad& load, const VesselData& vessel, const Piece& piece);
+
+/// The load at each of the rows of particles of the piece, relative to `largest_load`: 1 where the load is
 /// uniform, to the last bit.
 std::vector<double> axial_profile(const AxialLoad& load, const VesselData& vessel, const Piece& piece,
                                   std::int64_t rows, double row_spacing);

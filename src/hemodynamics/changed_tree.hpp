@@ -49,8 +49,6 @@ class ChangedTree {
     double artery, vein;  ///< resistances, Pa s/m3
     double below;         ///< of what hangs below and is not on a way; 0: nothing
   };
-  const Place& at(std::uint64_t place) const;
-
   const TreeFlow& flow_;
   std::vector<std::uint64_t> vessels_;
   std::vector<Place> places_;  ///< ascending

@@ -150,7 +150,7 @@ VesselLines VesselLines::of_graph(const network::Graph& graph, const GraphFlow& 
                .wall_thickness = wall_thickness(graph, v, mechanics),
                .generation = graph.generation.empty() ? -1.0 : graph.generation[v],
                .haematocrit = haematocrit.empty() ? mechanics.viscosity.haematocrit : haematocrit[v],
-               .number = static_cast<double>(v),
+               .number = static_cast<double>(mechanics.numbers.empty() ? v : mechanics.numbers[v]),
                .kind = graph.kind.empty() ? VesselKind::unknown : graph.kind[v]},
               mechanics);
   }

@@ -115,11 +115,15 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// UDUNITS multiplies every number it meets, so that "1 000 mm" would be 0 and "5 mm 3" be 15 mm. Apart from
-/// exponents, which follow their unit without a blank, only the 1 of "1/s" is let through.
+/// UDUNITS multiplies every number it meets, so that "1 000 mm" would be 0 and "5 mm 3", "5 mm*3" be 15 mm.
+/// Apart from exponents, which follow their unit, ^ or **, only the 1 of "1/s" is let through.
 bool has_second_number(std::string_view unit) {
   for (std::size_t i = 0; i < unit.size(); ++i) {
-    if (i > 0 && !std::isspace(static_cast<unsigned char>(unit[i - 1]))) continue;
+    const auto before = unit.substr(0, i);
+    if (i > 0 &&
+        (before.ends_with("**") || (!std::isspace(static_cast<unsigned char>(before.back())) &&
+                                    std::string_view("*./()").find(before.back()) == std::string_view::npos)))
+      continue;
     const auto token = unit.substr(i);
     const auto digit = token.find_first_not_of("+-.");
     const bool number =

@@ -2,8 +2,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string_view>
 
@@ -111,7 +109,11 @@ class Table {
           field += line[i];
         }
         if (i >= line.size()) throw InputError(where() + ": a quoted field does not end");
-        line.remove_prefix(i + 1);
+        line = trimmed(line.substr(i + 1));
+        if (!line.empty() && line.front() != ',') {
+          throw InputError(fmt::format("{}: text after a quoted field, \"{}\": '{}'", where(), field,
+                                       line.substr(0, line.find(','))));
+        }
       }
       const auto comma = line.find(',');
       if (field.empty()) field = trimmed(line.substr(0, comma));
@@ -162,18 +164,6 @@ void require(const Table& table, const std::string& name) {
   if (!table.has(name)) throw InputError(fmt::format("{}: there is no column {}", table.where(), name));
 }
 
-std::string field_of(const std::string& name) {
-  if (name.find_first_of(",\"#") == std::string::npos && name == trimmed(name)) return name;
-  std::string quoted = "\"";
-  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
-
-void write(const std::filesystem::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  if (!(stream << text << std::flush)) throw RunError(file.string() + ": cannot be written");
-}
-
 }  // namespace
 
 BoundedGraph read_csv_network(const std::filesystem::path& junctions, const std::filesystem::path& vessels,
@@ -199,36 +189,6 @@ BoundedGraph read_csv_network(const std::filesystem::path& junctions, const std:
                 rows.where());
   }
   return builder.finish(vessels.string());
-}
-
-void write_csv_network(const BoundedGraph& network, const std::filesystem::path& junctions,
-                       const std::filesystem::path& vessels) {
-  const Graph& g = network.graph;
-  std::vector<std::string> condition(g.junctions, ",,");
-  for (const Condition& c : network.conditions) {
-    condition[c.junction] = c.kind == Condition::Kind::flow ? fmt::format(",{},", c.value)
-                            : c.resistance > 0              ? fmt::format("{},,{}", c.value, c.resistance)
-                                                            : fmt::format("{},,", c.value);
-  }
-  std::string text = g.x.empty() ? "id" : "id,x [m],y [m],z [m]";
-  text += ",pressure [Pa],flow [m3/s],resistance [Pa s/m3]\n";
-  for (std::size_t j = 0; j < g.junctions; ++j) {
-    text += field_of(g.name_of_junction(j));
-    if (!g.x.empty()) fmt::format_to(std::back_inserter(text), ",{},{},{}", g.x[j], g.y[j], g.z[j]);
-    text += ',' + condition[j] + '\n';
-  }
-  write(junctions, text);
-  constexpr const char* kinds[] = {"artery", "vein", "unknown"};
-  text = "id,from,to,radius [m],length [m],wall_thickness [m],kind,generation\n";
-  for (std::size_t v = 0; v < g.vessels(); ++v) {
-    const bool thick = !g.wall_thickness.empty() && g.wall_thickness[v] > 0;
-    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{}\n", field_of(g.name_of_vessel(v)),
-                   field_of(g.name_of_junction(g.from[v])), field_of(g.name_of_junction(g.to[v])),
-                   g.radius[v], g.length[v], thick ? fmt::format("{}", g.wall_thickness[v]) : "",
-                   g.kind.empty() ? "" : kinds[static_cast<int>(g.kind[v])],
-                   g.generation.empty() || g.generation[v] < 0 ? "" : std::to_string(g.generation[v]));
-  }
-  write(vessels, text);
 }
 
 }  // namespace rhexis::network

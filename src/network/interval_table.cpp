@@ -52,20 +52,18 @@ bool IntervalTable::fill(double low, double high, int bits, const std::vector<do
   first_row_ = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(low) >> shift_);
   const std::int64_t last_row = static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(high) >> shift_);
   const auto count = static_cast<std::size_t>(last_row - first_row_ + 1);
-  storage_.assign((count + 1) * coefficients, 0.0);
-  const auto address = reinterpret_cast<std::uintptr_t>(storage_.data());
-  rows_ = storage_.data() + (64 - address % 64) % 64 / sizeof(double);
+  rows_.assign(count, {});
   largest_error_ = 0;
   for (std::int64_t row = 0; row < static_cast<std::int64_t>(count); ++row) {
     const auto edge = [&](std::int64_t r) {
       return std::bit_cast<double>(static_cast<std::uint64_t>(r + first_row_) << shift_);
     };
     const double left = edge(row), right = edge(row + 1);
-    double* c = rows_ + coefficients * row;
+    Row& c = rows_[static_cast<std::size_t>(row)];
     bool kink = false;
     for (const double k : kinks) kink = kink || (k >= left && k <= right);
     if (kink) {
-      for (int i = 0; i < coefficients; ++i) c[i] = std::numeric_limits<double>::quiet_NaN();
+      c.fill(std::numeric_limits<double>::quiet_NaN());
       continue;
     }
     const auto argument = [&](long double u) {

@@ -8,6 +8,7 @@
 /// there, the function itself is called.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -27,10 +28,10 @@ class IntervalTable {
 
   double operator()(double argument) const {
     const std::uint64_t bits = std::bit_cast<std::uint64_t>(argument);
-    const double* c = rows() + coefficients * row_of(bits);
+    const Row& c = rows_[static_cast<std::size_t>(row_of(bits))];
     const double u = place(bits);
-    double value = c[coefficients - 1];
-    for (int i = coefficients - 2; i >= 0; --i) value = std::fma(value, u, c[i]);
+    double value = c.back();
+    for (std::size_t i = coefficients - 1; i-- > 0;) value = std::fma(value, u, c[i]);
     return std::isnan(value) ? exact(argument) : value;
   }
 
@@ -38,7 +39,7 @@ class IntervalTable {
 
   /// For the vector code: row r = (bits of the argument >> shift) - first_row holds 8 coefficients, lowest
   /// first; in the interval, u = 2 (place within it) - 1. Rows around kinks hold nan.
-  const double* rows() const { return rows_; }
+  const double* rows() const { return rows_.front().data(); }
   int shift() const { return shift_; }
   std::int64_t first_row() const { return first_row_; }
   double largest_error() const { return largest_error_; }
@@ -55,8 +56,8 @@ class IntervalTable {
   bool fill(double low, double high, int bits, const std::vector<double>& kinks);
 
   Function function_;
-  std::vector<double> storage_;  ///< with room to align rows to cache lines
-  double* rows_ = nullptr;
+  struct alignas(64) Row : std::array<double, coefficients> {};
+  std::vector<Row> rows_;  ///< a cache line each
   int shift_ = 0;
   std::int64_t first_row_ = 0;
   double scale_ = 0;  ///< 2^(bits + 1)

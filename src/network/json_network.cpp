@@ -29,6 +29,8 @@ class Reader {
       const auto upto = text.substr(0, error.byte > 0 ? error.byte - 1 : 0);
       throw InputError(fmt::format("{}:{}: not valid JSON, or cut short: {}", file_,
                                    1 + std::count(upto.begin(), upto.end(), '\n'), error.what()));
+    } catch (const Json::exception& error) {  // a number beyond all
+      refuse(error.what());
     }
     if (!document_.is_object()) refuse("an object with units, junctions and vessels is expected");
     known(document_, "", {"units", "junctions", "vessels"});

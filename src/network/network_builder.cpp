@@ -110,7 +110,18 @@ void NetworkBuilder::add(const VesselRow& row, const std::string& where) {
 }
 
 BoundedGraph NetworkBuilder::finish(const std::string& file) {
-  if (network_.graph.vessels() == 0) throw InputError(file + ": there are no vessels");
+  const Graph& g = network_.graph;
+  if (g.vessels() == 0) throw InputError(file + ": there are no vessels");
+  std::vector<bool> has_vessel(g.junctions);
+  for (const auto& ends : {g.from, g.to}) {
+    for (const std::uint32_t j : ends) has_vessel[j] = true;
+  }
+  for (const Condition& c : network_.conditions) {
+    if (!has_vessel[c.junction]) {
+      throw InputError(file + ": junction " + g.name_of_junction(c.junction) +
+                       ", where a pressure or a flow is given, is no vessel's end");
+    }
+  }
   return std::move(network_);
 }
 

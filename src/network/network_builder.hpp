@@ -36,7 +36,7 @@ class NetworkBuilder {
   /// `where` opens a message about the row, e.g. `vessels.csv:12`. Throws InputError for what cannot be.
   void add(const JunctionRow& row, const std::string& where);
   void add(const VesselRow& row, const std::string& where);
-  /// Throws InputError where there is no vessel.
+  /// Throws InputError where there is no vessel, or none at a junction with a pressure or a flow.
   BoundedGraph finish(const std::string& file);
 
  private:

@@ -1,21 +1,13 @@
 #include "network/network_file.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-
 #include "core/error.hpp"
+#include "core/text_file.hpp"
 #include "network/vtp_network.hpp"
 
 namespace rhexis::network {
 
 std::string read_network_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    throw InputError(file.string() + ": cannot be read: " + std::strerror(errno != 0 ? errno : EISDIR));
-  }
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string text = whole_file(file);
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw InputError(file.string() + ": the file is empty");
   if (text.find('\0') != std::string::npos) throw InputError(file.string() + ": not a text file");

@@ -40,8 +40,4 @@ BoundedGraph read_network(const std::vector<std::string>& files, const std::stri
 /// The whole text of a file; throws InputError where it cannot be read or is empty.
 std::string read_network_text(const std::filesystem::path& file);
 
-/// Both CSV files of a network, in SI. Throws RunError.
-void write_csv_network(const BoundedGraph& network, const std::filesystem::path& junctions,
-                       const std::filesystem::path& vessels);
-
 }  // namespace rhexis::network

@@ -1,16 +1,21 @@
 #include "output/directory.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/text_file.hpp"
 #include "output/numbered_picture.hpp"
 #include "parallel/together.hpp"
 
@@ -33,7 +38,8 @@ bool is_result(std::string name) {
 
 /// Rows below the header of an ensemble's table.
 bool holds_samples(const fs::path& directory) {
-  std::ifstream table(directory / "samples.csv");
+  if (!fs::exists(directory / "samples.csv")) return false;
+  std::istringstream table(whole_file(directory / "samples.csv"));
   std::string line;
   return std::getline(table, line) && std::getline(table, line);
 }
@@ -80,6 +86,16 @@ void try_to_write_in(const fs::path& directory) {
   if (!reason.empty()) refuse(directory, reason);
 }
 
+/// For this program as long as it lives; ends with it, whatever happens. Null where there are no locks.
+std::shared_ptr<const void> lock(const fs::path& directory) {
+  const int file = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return nullptr;
+  std::shared_ptr<const void> held(nullptr, [file](const void*) { close(file); });
+  if (flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    refuse(directory, "another run is still writing there; wait for its end, or choose another folder");
+  return held;
+}
+
 /// Removes the files in `directory` itself whose names `is_ours` accepts.
 template <class Predicate>
 void remove_files(const fs::path& directory, Predicate is_ours) {
@@ -120,13 +136,16 @@ void remove_events(const fs::path& directory) {
 
 }  // namespace
 
-void prepare_directory(const fs::path& directory, EarlierResults earlier,
-                       const parallel::Communicator& communicator) {
+std::shared_ptr<const void> prepare_directory(const fs::path& directory, EarlierResults earlier,
+                                              const parallel::Communicator& communicator) {
+  std::shared_ptr<const void> held;
   parallel::on_root<InputError>(communicator, [&] {
     if (earlier == EarlierResults::remove && holds_samples(directory))
       refuse(directory,
              "it holds the samples of an ensemble; move samples.csv away, or choose another folder");
     NewDirectories created;
+    created.make(directory);
+    held = lock(directory);
     for (const fs::path& path : {directory, directory / "images", directory / "checkpoints"}) {
       created.make(path);
       try_to_write_in(path);
@@ -137,6 +156,7 @@ void prepare_directory(const fs::path& directory, EarlierResults earlier,
     }
     created.keep();
   });
+  return held;
 }
 
 }  // namespace rhexis::output

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/text_file.hpp"
 #include "output/atomic_file.hpp"
 #include "parallel/together.hpp"
 
@@ -29,8 +30,8 @@ std::string line_of(const HistoryRow& row) {
 /// The header and the complete rows up to `last_step` of the file; the header alone where there is no file.
 std::string kept_text(const std::filesystem::path& path, long last_step) {
   std::string kept = fmt::format("{}\n", header);
-  std::ifstream file(path);
-  if (!file) return kept;
+  if (!std::filesystem::exists(path)) return kept;
+  std::istringstream file(whole_file(path));
   std::string line;
   std::getline(file, line);
   if (line != header) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
+#include "core/format.hpp"
 #include "peridynamics/column_body_dilatation.hpp"
 #include "peridynamics/column_body_observe.hpp"
 #include "peridynamics/column_body_parts.hpp"
@@ -33,6 +35,12 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families
   setup.double_bonds = p.bond_precision == "double";
   setup.heterogeneity = Heterogeneity(p);
   setup.thin_spots = ThinSpots(p, setup.lattice, setup.layer);
+  if (const auto [first, past] = free_rows(setup, 2); first == past) {
+    throw InputError("the held ends (" + quantity(setup.end_length, "m") + ", or " + std::to_string(first) +
+                         " rows, each) leave none of the vessel's " + std::to_string(setup.lattice.rows) +
+                         " rows free",
+                     "boundary.end_length");
+  }
   return setup;
 }
 

@@ -160,6 +160,7 @@ Totals ColumnBody<Law, Real>::totals() const {
   totals.fracture = observed_.fracture.value(comm_);
   if constexpr (Law::state_based) totals.fracture += state_->released.value(comm_);
   totals.external_work = work_.value(comm_);
+  totals.lost = std::ldexp(setup_.energy_scale, -40);  // a quantum of 2^-80 for each of 2^40 terms
   totals.max_displacement = max_displacement();
   totals.max_damage = comm_.all_reduce(observed_.max_damage, parallel::Reduce::max);
   totals.broken_bonds = comm_.all_reduce(born_directed_ - intact_directed_, parallel::Reduce::sum) / 2;

@@ -23,7 +23,6 @@ class Domain {
          bool periodic);
 
   const PointLayout& layout() const { return layout_; }
-  bool periodic() const { return periodic_; }
   std::int64_t blocks() const {
     return (layout_.row_count + parallel::block_rows - 1) / parallel::block_rows;
   }

@@ -13,8 +13,7 @@ namespace rhexis::peridynamics {
 Heterogeneity::Heterogeneity(const Parameters& p)
     : mid_radius_(0.5 * (p.inner_radius + p.outer_radius)), spots_(p.spots) {
   const auto is_one = [](double factor) { return factor == 1; };
-  uniformly_stiff_ = p.scatter.stiffness == 0 && std::ranges::all_of(spots_.stiffness, is_one);
-  uniform_ = uniformly_stiff_ && p.scatter.critical_stretch == 0 &&
+  uniform_ = p.scatter.none() && std::ranges::all_of(spots_.stiffness, is_one) &&
              std::ranges::all_of(spots_.critical_stretch, is_one);
   if (p.scatter.none()) return;
   field_.emplace(p.scatter.seed, *p.scatter.correlation_length);

@@ -32,7 +32,6 @@ class Heterogeneity {
   explicit Heterogeneity(const Parameters& p);
 
   bool uniform() const { return uniform_; }
-  bool uniformly_stiff() const { return uniformly_stiff_; }
 
   /// Factors at (x, y, z[i]), m.
   std::vector<WallFactors> along(double x, double y, std::span<const double> z) const;
@@ -45,7 +44,7 @@ class Heterogeneity {
   using Marginal = std::function<double(double)>;
   static Marginal marginal(const std::string& law, double spread);
 
-  bool uniform_ = true, uniformly_stiff_ = true;
+  bool uniform_ = true;
   double mid_radius_ = 0;  ///< m
   Spots spots_;
   std::optional<GaussianField> field_;

@@ -43,7 +43,8 @@ ParameterList declare(Scatter& s) {
 
 double Spots::nearness(std::size_t i, double mid_radius, double around, double z) const {
   const double along_circle = mid_radius * std::remainder(around - angle[i], 2 * std::numbers::pi);
-  const double distance = std::hypot(z - position[i], along_circle) / radius[i];
+  const double along_axis = std::remainder(z - position[i], period);
+  const double distance = std::hypot(along_axis, along_circle) / radius[i];
   return distance < 1 ? 0.5 * (1 + std::cos(std::numbers::pi * distance)) : 0.0;
 }
 
@@ -134,6 +135,8 @@ std::vector<std::string> check(const Spots& s, double length, double wall, doubl
                            quantity(spacing, "m") + ", is the least",
                        spot + ".thickness");
     }
+    if (s.critical_stretch[i] == 1 && s.stiffness[i] == 1 && s.thickness[i] == 1)
+      warnings.push_back(spot + " changes nothing: give its critical_stretch, stiffness or thickness");
     if (s.radius[i] < 2 * spacing) {
       warnings.push_back(spot + " has a radius of " + quantity(s.radius[i], "m") +
                          "; below 2 spacings it is not resolved");

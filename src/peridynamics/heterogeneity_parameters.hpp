@@ -1,6 +1,7 @@
 /// Input keys of a wall whose properties differ from place to place.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,6 +30,7 @@ struct Spots {
   std::vector<double> critical_stretch;  ///< factor at the centre
   std::vector<double> stiffness;         ///< factor at the centre
   std::vector<double> thickness;         ///< share of the wall that is left at the centre, from the lumen on
+  double period = INFINITY;  ///< m: distances along the axis are those round a ring of this length
 
   std::size_t size() const { return position.size(); }
 

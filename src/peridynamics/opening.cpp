@@ -69,9 +69,10 @@ std::vector<std::size_t> empty_runs(std::span<const std::uint64_t> row) {
 }  // namespace
 
 OpeningGauge::OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm,
-                           const ThinSpots& thin_spots)
+                           EndCondition ends, const ThinSpots& thin_spots)
     : body_(&body),
       comm_(comm),
+      periodic_(ends == EndCondition::axial_periodic),
       thin_spots_(thin_spots),
       row_spacing_(lattice.row_spacing),
       radius_quantum_(std::ldexp(lattice.spacing, -20)),
@@ -162,8 +163,11 @@ double OpeningGauge::area() const {
       const double gap = static_cast<double>(run + 1) * bin_width;
       if (gap > 1.5 * intact) area += (gap - intact) * radius * row_spacing_;
     }
-    for (std::size_t sector = 0; sector < sectors_ && row > 0; ++sector) {
-      const double gap = lowest[row * sectors_ + sector] - highest[(row - 1) * sectors_ + sector];
+    if (row == 0 && !periodic_) continue;
+    const std::size_t before = (row == 0 ? radii.size() : row) - 1;
+    const double period = row == 0 ? static_cast<double>(radii.size()) * row_spacing_ : 0;
+    for (std::size_t sector = 0; sector < sectors_; ++sector) {
+      const double gap = lowest[row * sectors_ + sector] + period - highest[before * sectors_ + sector];
       if (gap > 1.5 * row_spacing_) area += (gap - row_spacing_) * radius * sector_width;
     }
   }

@@ -23,7 +23,7 @@ namespace rhexis::peridynamics {
 /// so the result does not depend on ranks.
 class OpeningGauge {
  public:
-  OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm,
+  OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm, EndCondition ends,
                const ThinSpots& thin_spots = {});
 
   /// m2. Collective.
@@ -36,6 +36,7 @@ class OpeningGauge {
 
   const Body* body_;
   parallel::Communicator comm_;
+  bool periodic_;
   ThinSpots thin_spots_;
   double row_spacing_, radius_quantum_;
   std::vector<double> intact_gap_;      ///< rad, widest in each row of the reference state

@@ -284,10 +284,7 @@ void resolve_ends(Parameters& p) {
           "a periodic piece must be longer than two horizons, here " + quantity(2 * *p.horizon, "m"),
           "vessel.length");
     }
-  } else if (ends != EndCondition::free && 2 * *p.end_length >= p.length) {
-    throw InputError(
-        "the held ends (" + quantity(*p.end_length, "m") + " each) leave nothing of the vessel free",
-        "boundary.end_length");
+    p.spots.period = p.length;
   }
 }
 
@@ -320,6 +317,16 @@ std::vector<std::string> resolve(Parameters& p) {
   if (across < 2.999) {
     warnings.push_back("the wall is " + text(across) +
                        " spacings thick; below 3 its stiffness and strength mean little");
+  }
+  if (p.inner_radius < *p.horizon) {
+    warnings.push_back("the lumen's radius (" + quantity(p.inner_radius, "m") + ") is below the horizon (" +
+                       quantity(*p.horizon, "m") +
+                       "): its roundness is not resolved, and displacements are off by tens of per cent "
+                       "(\"check\" tells how much); take a smaller spacing");
+  }
+  if (p.law.name == "lps" && p.law.poisson_ratio > 0.45) {
+    warnings.push_back("a nearly incompressible wall (material.poisson_ratio = " + text(p.law.poisson_ratio) +
+                       ") does not converge with the spacing: \"check\" tells how far it is off");
   }
   if (p.layer == "paper" && *p.layer_thickness > wall * (1 + 1e-9)) {
     warnings.push_back("the loaded layer (" + quantity(*p.layer_thickness, "m") +

@@ -14,14 +14,11 @@ namespace rhexis::peridynamics {
 double stable_time_step(const BodySetup& setup) {
   const Lattice& lattice = setup.lattice;
   return with_law(setup.law, [&]<class Law>(const Law& law) {
-    // Where it makes no difference the wall's random fields are not drawn.
-    const WallFactors largest = setup.heterogeneity.uniformly_stiff() && !Law::hardens
-                                    ? WallFactors{}
-                                    : setup.heterogeneity.largest(lattice);
-    const double hardening = law.stiffness_ratio(setup.critical_stretch * largest.critical_stretch);
-    const double of_bonds = stable_time_step(lattice, setup.families, setup.bond_constant, setup.density,
-                                             setup.critical_stretch) /
-                            std::sqrt(largest.stiffness * hardening);
+    const WallFactors largest = setup.heterogeneity.largest(lattice);
+    const double critical_stretch = setup.critical_stretch * largest.critical_stretch;
+    const double of_bonds =
+        stable_time_step(lattice, setup.families, setup.bond_constant, setup.density, critical_stretch) /
+        std::sqrt(largest.stiffness * law.stiffness_ratio(critical_stretch));
     if constexpr (!Law::state_based) {
       return of_bonds;
     } else {

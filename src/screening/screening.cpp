@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "network/wall.hpp"
+#include "parallel/exchange.hpp"
 
 namespace rhexis::screening {
 namespace {
@@ -119,19 +120,7 @@ Screening RiskTally::result(parallel::Communicator comm) const {
       s.above += g.above[k];
     }
   }
-  // Every rank's list has a place of its own in the sum.
-  constexpr std::size_t numbers = 3;
-  std::vector<double> lists(numbers * most_ * static_cast<std::size_t>(comm.size()), 0.0);
-  double* own = lists.data() + numbers * most_ * static_cast<std::size_t>(comm.rank());
-  for (const RankedVessel& v : list_) {
-    *own++ = v.risk;
-    *own++ = static_cast<double>(v.vessel);
-    *own++ = v.alike;
-  }
-  comm.all_reduce(lists, parallel::Reduce::sum);
-  for (std::size_t i = 0; i < lists.size(); i += numbers) {
-    if (lists[i] > 0) s.top.push_back({lists[i], static_cast<std::uint64_t>(lists[i + 1]), lists[i + 2]});
-  }
+  s.top = parallel::all_gather(comm, list_).records;
   std::sort(s.top.begin(), s.top.end(), before);
   if (s.top.size() > most_) s.top.resize(most_);
   return s;

@@ -63,7 +63,10 @@ WRONG_INPUTS = [
     ("output every zero steps", replaced("every_steps", "every_steps = 0"), ["output.every_steps"]),
     ("unknown field", replaced("every_steps", 'fields = ["damge"]'), ["damge", "damage"]),
     ("ends that hold all", GOOD + '[boundary]\nend_length = "1 mm"\n', ["end_length"]),
+    ("ends that hold all, rounded to rows", GOOD.replace('length = "2 mm"', 'length = "0.7 mm"') + '[boundary]\nend_length = "0.34 mm"\n',
+     ["boundary.end_length", "4 rows"]),
     ("periodic piece too short", GOOD.replace('length = "2 mm"', 'length = "0.5 mm"') + '[boundary]\nends = "axial_periodic"\n', ["vessel.length", "horizon"]),
+    ("script that is no script", GOOD + '[insitu]\nscripts = ["/etc/hostname"]\n', ["insitu.scripts", "/etc/hostname", ".py"]),
     ("spot without a place", GOOD + '[[spot]]\nradius = "1 mm"\n', ["spot[1].position", "missing"]),
     ("spot beyond the end", GOOD + '[[spot]]\nposition = "3 mm"\nradius = "1 mm"\n', [":21:", "spot[1].position", "2 mm"]),
     ("unknown key of a spot", GOOD + '[[spot]]\npositoin = "1 mm"\n', [":21:", "spot[1].positoin", "position"]),
@@ -190,6 +193,30 @@ class Cli(VesselCase):
             self.assertEqual(result.stdout, "")
         self.assertEqual(self.history("r1"), self.history("r2"))
         self.assertEqual(self.history("r1"), self.history("r3"))
+
+    def test_slow_ramps_are_not_taken_for_unstable(self):
+        self.write(GOOD)
+        for ramp in ("2 s", "1e6 s"):
+            result = self.rhexis("run", "vessel.toml", "--set", f"load.ramp_time={ramp}", "--set", "load.schedule=smooth_ramp")
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_a_folder_is_for_one_run_at_a_time(self):
+        self.write(GOOD)
+        endless = ("--set", "time.end=10 s", "--set", "output.every_steps=1000000")
+        first = subprocess.Popen([RHEXIS, "run", "vessel.toml", "-o", "out", *endless], cwd=self.folder.name,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            while not os.path.exists(self.path("out/history.csv")):
+                self.assertIsNone(first.poll())
+                time.sleep(0.01)
+            result = self.rhexis("run", "vessel.toml", "-o", "out")
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("another run is still writing there", result.stderr)
+            self.assertTrue(os.path.exists(self.path("out/history.csv")))
+        finally:
+            first.kill()
+            first.wait()
+        self.assertEqual(self.rhexis("run", "vessel.toml", "-o", "out").returncode, 0)
 
     def test_output_by_time(self):
         self.write(replaced("every_steps", 'every_time = "12.5 us"'))

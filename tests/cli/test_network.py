@@ -237,6 +237,19 @@ class Network(unittest.TestCase):
         self.assertTrue((pressure[lines[:, 0]] >= pressure[lines[:, 1]]).all())  # blood runs downhill along every line
         self.assertTrue((position[lines[kind == 0], 0] <= 0).all() and (position[lines[kind == 1], 0] >= 0).all())
 
+    def test_stored_lines_of_all_ranks_name_their_vessels(self):
+        import h5py
+
+        self.write("n.toml", TREE)
+        seen = []
+        for tier, ranks in (("explicit", None), ("distributed", 2)):
+            self.run_well("n.toml", "-o", tier, "--set", f"network.tier={tier}", ranks=ranks)
+            with h5py.File(self.path / tier / "network.h5") as file:
+                vessel, radius = file["vessel/000000"][:], file["radius/000000"][:]
+            self.assertEqual(len(set(vessel)), len(vessel))
+            seen.append(dict(zip(vessel, radius)))
+        self.assertEqual(*seen)
+
     def test_gravity_adds_the_weight_of_blood_and_leaves_flow_alone(self):
         self.write("j.csv", JUNCTIONS)
         self.write("v.csv", VESSELS)

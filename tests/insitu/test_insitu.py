@@ -263,6 +263,11 @@ class Failures(DriverTest):
         self.assertEqual(self.failure(script, ranks=2),
                          f"Catalyst script {script}, line 5: ZeroDivisionError: division by zero (on rank 1)")
 
+    def test_raising_what_is_no_text_on_one_rank(self):
+        script = self.script(RANK + MINIMAL + 'if rank == 1: raise RuntimeError("caf\\udce9")\n')
+        self.assertEqual(self.failure(script, ranks=2),
+                         f"Catalyst script {script}, line 5: RuntimeError: caf\\udce9 (on rank 1)")
+
     def test_raising_at_a_later_frame(self):
         script = self.script(MINIMAL + "def catalyst_execute(info):\n  if info.timestep == 50: raise SystemExit(7)\n")
         self.assertEqual(self.failure(script), f"Catalyst script {script}, line 4: SystemExit: 7")

@@ -69,7 +69,7 @@ Outcome outcome(const Case& c, parallel::Communicator comm, int threads) {
   const ThinSpots thin_spots = setup.thin_spots;
   Outcome o;
   o.body = make_body(std::move(setup), comm);
-  const OpeningGauge gauge(lattice, *o.body, comm, thin_spots);
+  const OpeningGauge gauge(lattice, *o.body, comm, end_condition(parameters(c)), thin_spots);
   double pressure = 120e3;
   for (int i = 0; i < 150; ++i) {
     if (i % 10 == 0) pressure = 120e3 * venting_factor(gauge.area(), 5e-7);

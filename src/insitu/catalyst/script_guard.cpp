@@ -13,12 +13,19 @@ namespace {
 constexpr const char* module_name = "rhexis_catalyst";
 constexpr const char* capsule_name = "rhexis_catalyst.agreement";
 
-/// What Python calls as agree(text).
+/// A Python string; what has no UTF-8 (a stray byte of a file's name) as an escape.
+std::string utf8(PyObject* text) {
+  const vtkSmartPyObject bytes(
+      text == nullptr ? nullptr : PyUnicode_AsEncodedString(text, "utf-8", "backslashreplace"));
+  if (bytes) return PyBytes_AsString(bytes);
+  PyErr_Clear();
+  return "unknown Python error";
+}
+
+/// What Python calls as agree(text); collective, so there is nothing that makes a rank leave it out.
 PyObject* agree(PyObject* self, PyObject* text) {
   auto* agreement = static_cast<Agreement*>(PyCapsule_GetPointer(self, capsule_name));
-  const char* mine = PyUnicode_AsUTF8(text);
-  if (agreement == nullptr || mine == nullptr) return nullptr;
-  return PyUnicode_FromString(agreement->agree(mine).c_str());
+  return PyUnicode_FromString(agreement->agree(utf8(text)).c_str());
 }
 
 PyMethodDef agree_definition = {"agree", &agree, METH_O, "first non-empty text of all ranks"};
@@ -31,8 +38,7 @@ std::string take_exception() {
   Py_XDECREF(type);
   Py_XDECREF(value);
   Py_XDECREF(trace);
-  const char* text = message ? PyUnicode_AsUTF8(message) : nullptr;
-  return text == nullptr ? "unknown Python error" : text;
+  return utf8(message);
 }
 
 vtkSmartPyObject call(const char* function, const char* argument = nullptr) {
@@ -56,7 +62,7 @@ ScriptGuard::ScriptGuard(Agreement& agreement, const std::string& image_director
   vtkSmartPyObject code(Py_CompileString(guard_source, "rhexis guard.py", Py_file_input));
   vtkSmartPyObject result(code ? PyEval_EvalCode(code, names, names) : nullptr);
   if (!result) throw RunError("ParaView's Python: " + take_exception());
-  vtkSmartPyObject directory(PyUnicode_FromString(image_directory.c_str()));
+  vtkSmartPyObject directory(PyUnicode_DecodeFSDefault(image_directory.c_str()));
   PyDict_SetItemString(names, "image_directory", directory);
 }
 
@@ -72,7 +78,7 @@ PerChannel<Wish> ScriptGuard::wishes(const std::string& script) const {
     if (names == Py_None) continue;
     std::vector<std::string>& fields = wishes[channel].fields.emplace();
     for (Py_ssize_t i = 0; i < PyList_Size(names); ++i) {
-      fields.emplace_back(PyUnicode_AsUTF8(PyList_GetItem(names, i)));
+      fields.push_back(utf8(PyList_GetItem(names, i)));
     }
   }
   return wishes;
@@ -80,8 +86,7 @@ PerChannel<Wish> ScriptGuard::wishes(const std::string& script) const {
 
 std::string ScriptGuard::take_noted(const std::string& script) const {
   vtkPythonScopeGilEnsurer gil;
-  const vtkSmartPyObject text = call("take_noted", script.c_str());
-  return PyUnicode_AsUTF8(text);
+  return utf8(call("take_noted", script.c_str()));
 }
 
 void ScriptGuard::forget_scripts() const {

@@ -25,7 +25,6 @@ namespace rhexis::peridynamics {
 
 struct Fung {
   static constexpr bool state_based = false;
-  static constexpr bool hardens = true;
   double exponent;  ///< a > 0
 
   static double bond_constant(double young_modulus, double horizon) {

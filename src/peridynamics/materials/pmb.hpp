@@ -18,7 +18,6 @@ namespace rhexis::peridynamics {
 
 struct Pmb {
   static constexpr bool state_based = false;
-  static constexpr bool hardens = false;  ///< stiffness grows with stretch
   static constexpr double poisson_ratio = 0.25;
 
   /// Eq. (4): c = 6 E / (pi delta^4 (1 - 2 nu)) with nu = 1/4, N/m6; E in Pa, delta in m.

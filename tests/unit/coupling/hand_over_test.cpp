@@ -75,7 +75,6 @@ TEST(AxialProfile, IsOneToTheLastBitUnderUniformLoad) {
 
 TEST(AxialProfile, IsLinearBetweenEndsAndMiddle) {
   const AxialLoad load{{400, 200, 100}};
-  EXPECT_EQ(load.largest(), 400);
   EXPECT_EQ(load.at(0), 400);
   EXPECT_EQ(load.at(0.25), 300);
   EXPECT_EQ(load.at(0.5), 200);
@@ -85,8 +84,11 @@ TEST(AxialProfile, IsLinearBetweenEndsAndMiddle) {
   piece.start = 2e-3;
   piece.length = 6e-3;
   const auto profile = axial_profile(load, paper, piece, 6, 1e-3);
-  EXPECT_NEAR(profile.front(), (400 - 0.25 * 400) / 400, 1e-15);  // at 2.5 of 10 mm
-  EXPECT_NEAR(profile.back(), 150.0 / 400, 1e-15);                // at 7.5 mm
+  // Of the load on the piece itself, which ends at 2 and 8 of 10 mm.
+  EXPECT_NEAR(largest_load(load, paper, piece), 320, 1e-12);
+  EXPECT_NEAR(profile.front(), 300.0 / 320, 1e-15);  // at 2.5 mm
+  EXPECT_NEAR(profile.back(), 150.0 / 320, 1e-15);   // at 7.5 mm
+  EXPECT_EQ(largest_load({{100, 500, 0}}, paper, piece), 500);
 }
 
 }  // namespace

@@ -88,7 +88,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"-inf s", "s", {"'-inf' is not a finite number"}},
         Refusal{"1e400 m", "m", {"'1e400' is not a finite"}}, Refusal{"1e308 km", "m", {"too large"}},
         Refusal{"1,5 mm", "m", {"decimal comma"}}, Refusal{"1 000 mm", "m", {"more than one number"}},
-        Refusal{"5 mm 3", "m", {"more than one number"}}, Refusal{"5 mm -3", "m", {"more than one number"}}));
+        Refusal{"5 mm 3", "m", {"more than one number"}}, Refusal{"5 mm -3", "m", {"more than one number"}},
+        Refusal{"3 mm*2", "m", {"more than one number"}}, Refusal{"3 mm.2", "m", {"more than one number"}},
+        Refusal{"3 mm/0.5", "m", {"more than one number"}},
+        Refusal{"3 (2 mm)", "m", {"more than one number"}}));
 
 TEST(Units, AnUnknownUnitInADeclarationIsNotTheUsersFault) {
   EXPECT_THROW(to_si("1 mm", "metres_of_rope"), std::logic_error);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 namespace rhexis::network {
@@ -26,6 +27,14 @@ TEST(IntervalTable, IsExactAroundKinks) {
   const IntervalTable smooth(function, 0.1, 1.0), table(function, 0.1, 1.0, {0.3});
   EXPECT_GT(std::abs(smooth(0.3) - 1.3), 1e-9);  // a polynomial cannot
   for (double x = 0.29; x < 0.31; x += 1e-5) EXPECT_NEAR(table(x), static_cast<double>(function(x)), 1e-15);
+}
+
+TEST(IntervalTable, ACopyOutlivesTheOriginal) {
+  auto original = std::make_unique<IntervalTable>([](long double x) { return x * x; }, 0.1, 1.0);
+  const IntervalTable copy = *original;
+  EXPECT_NE(copy.rows(), original->rows());
+  original.reset();
+  EXPECT_DOUBLE_EQ(copy(0.7), 0.7 * 0.7);
 }
 
 }  // namespace

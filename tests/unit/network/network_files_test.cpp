@@ -92,23 +92,6 @@ TEST_F(NetworkFiles, CsvOfAnyShape) {
   EXPECT_TRUE(n.graph.x.empty());
 }
 
-TEST_F(NetworkFiles, RoundTrip) {
-  BoundedGraph n = csv(junctions,
-                       "id,from,to,radius [um],kind,generation,wall_thickness "
-                       "[um]\n1,a,b,50.1,artery,0,3\n2,b,c,1e-3,vein,,\n");
-  n.conditions.push_back({1, Condition::Kind::flow, 1e-9, 0});
-  write_csv_network(n, folder_.path() / "a.csv", folder_.path() / "b.csv");
-  const BoundedGraph again = read_csv_network(folder_.path() / "a.csv", folder_.path() / "b.csv", to_si);
-  EXPECT_EQ(again.graph.radius, n.graph.radius);
-  EXPECT_EQ(again.graph.length, n.graph.length);
-  EXPECT_EQ(again.graph.x, n.graph.x);
-  EXPECT_EQ(again.graph.kind, n.graph.kind);
-  EXPECT_EQ(again.graph.generation, n.graph.generation);
-  EXPECT_EQ(again.graph.wall_thickness, n.graph.wall_thickness);
-  EXPECT_EQ(again.conditions.size(), 3u);
-  EXPECT_EQ(again.conditions.back().value, n.conditions[1].value);
-}
-
 TEST_F(NetworkFiles, CsvMistakes) {
   struct Mistake {
     std::string j, v;
@@ -137,6 +120,7 @@ TEST_F(NetworkFiles, CsvMistakes) {
       {"id,pressure [mmHg]\na,high\n", vessels, {"j.csv:2", "pressure = high"}},
       {"id,pressure [mmHg]\na,nan\n", vessels, {"j.csv:2", "pressure = nan"}},
       {"id\n\"a\n", vessels, {"j.csv:2", "quoted"}},
+      {junctions, header + "1,a,b,\"1.5\" cm\n", {"v.csv:2", "after a quoted field, \"1.5\": 'cm'"}},
       {junctions, header, {"v.csv", "no vessels"}},
       {junctions, "id,from,to\n1,a,b\n", {"v.csv:1", "radius"}},
       {junctions, "id,from,to,radius [um],diameter [um]\n", {"v.csv:1", "radius and diameter"}},
@@ -155,6 +139,9 @@ TEST_F(NetworkFiles, CsvMistakes) {
       {junctions, "id,from,to,radius [um],generation\n1,a,b,5,1.5\n", {"v.csv:2", "generation = 1.5"}},
       {junctions, "id,from,to,radius [um],length [mm]\n1,a,b,5,0\n", {"v.csv:2", "length", "greater than 0"}},
       {"id\na\nb\nc\n", vessels, {"v.csv:2", "needs a length"}},
+      {"id,x [mm],y [mm],z [mm],pressure [Pa]\na,0,0,0,1\nb,1,0,0,\nc,2,0,0,0\nstray,9,9,9,5000\n",
+       vessels,
+       {"v.csv", "junction stray", "no vessel's end"}},
   };
   for (const Mistake& m : mistakes) refused([&] { csv(m.j, m.v); }, m.fragments);
   refused([&] { read_csv_network(folder_.path() / "absent.csv", folder_.path() / "v.csv", to_si); },
@@ -184,6 +171,7 @@ TEST_F(NetworkFiles, JsonMistakes) {
       {R"({"units": {"length": "kg"}})", {"units.length", "kg"}},
       {R"({"units": {"length": 1}})", {"units.length"}},
       {R"({"junctions": [1], "vessels": []})", {"junctions[0]", "an object"}},
+      {with(R"({"id": 1, "from": "a", "to": "b", "radius": 1e999})"), {"n.json", "1e999"}},
       {with(""), {"no vessels"}},
       {with(R"({"id": 1, "from": "a", "to": "b", "radius": -1, "length": 1})"),
        {"vessels[0]", "radius", "greater than 0"}},

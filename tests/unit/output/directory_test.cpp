@@ -51,6 +51,23 @@ TEST(Directory, SamplesOfAnEnsembleAreNotRemoved) {
   prepare_directory(directory.path(), EarlierResults::keep, world);
 }
 
+TEST(Directory, IsForOneRunAtATime) {
+  const TemporaryDirectory directory;
+  const auto held = prepare_directory(directory / "a", EarlierResults::remove, world);
+  make_files(directory / "a", {"run.json"});
+  EXPECT_NE(refusal(directory / "a").find("another run is still writing there"), std::string::npos);
+  EXPECT_TRUE(fs::exists(directory / "a/run.json"));
+  prepare_directory(directory / "b", EarlierResults::remove, world);
+}
+
+TEST(Directory, SamplesThatCannotBeReadAreNotTakenForNone) {
+  const TemporaryDirectory directory;
+  if (world.is_root())
+    fs::create_directory(directory / "samples.csv");  // root may read any file, but no folder
+  world.barrier();
+  EXPECT_NE(refusal(directory.path()).find("samples.csv: cannot be read: "), std::string::npos);
+}
+
 TEST(Directory, ResultsOfAnEarlierRunGoAndNothingElse) {
   const TemporaryDirectory directory;
   const std::vector<std::string> ours = {"run.json",       "history.csv",

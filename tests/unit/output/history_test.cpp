@@ -66,6 +66,15 @@ TEST(History, DoesNotTouchAFileThatIsNotAHistory) {
   }
 }
 
+TEST(History, AFileThatCannotBeReadIsNotReplaced) {
+  const test::TemporaryDirectory directory;
+  const auto path = directory / "history.csv";
+  if (world.is_root()) std::filesystem::create_directory(path);  // root may read any file, but no folder
+  world.barrier();
+  const std::string message = test::message_of<InputError>([&] { History(path, world, 10); });
+  EXPECT_NE(message.find("history.csv: cannot be read: "), std::string::npos) << message;
+}
+
 TEST(History, AFolderThatIsNotThereIsARunErrorOnAllRanks) {
   const test::TemporaryDirectory directory;
   const std::string message =

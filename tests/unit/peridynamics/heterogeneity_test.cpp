@@ -207,6 +207,25 @@ TEST(HeterogeneousBody, StableStepIsThatOfTheStiffestPlace) {
               std::sqrt(largest), 1e-12);
 }
 
+TEST(HeterogeneousBody, StableStepIsThatOfTheMostExtensiblePlace) {
+  // A wall that is one large spot, where bonds bear ten times the nominal stretch, is the wall of that
+  // stretch.
+  for (const char* law : {"pmb", "lps"}) {
+    Parameters nominal = test::paper_vessel(4e-3);
+    nominal.law.name = law;
+    Parameters spotted = nominal, uniform = nominal;
+    spotted.spots = {{2e-3}, {0.0}, {1e3}, {10.0}, {1.0}, {1.0}};
+    uniform.critical_stretch = 10 * *spotted.critical_stretch;
+    const auto stable = [](Parameters& p) {
+      resolve(p);
+      const Lattice lattice = make_lattice(p);
+      return time_steps(p, lattice, make_families(p, lattice)).stable;
+    };
+    EXPECT_NEAR(stable(spotted) / stable(uniform), 1, 1e-5) << law;
+    EXPECT_LT(stable(uniform), 0.9 * stable(nominal)) << law;
+  }
+}
+
 TEST(Scatter, UnresolvedCorrelationIsWarnedOf) {
   Parameters p = scattered(0.1, 0);
   EXPECT_TRUE(resolve(p).empty());

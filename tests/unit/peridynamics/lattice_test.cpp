@@ -175,7 +175,6 @@ TEST(Parameters, InconsistentValuesNameTheirKey) {
               p.table = {{0, 0}, {0, 1}};
             }),
             "load.table");
-  EXPECT_EQ(key_of([](Parameters& p) { p.end_length = 1e-3; }), "boundary.end_length");
   EXPECT_EQ(key_of([](Parameters& p) {
               p.ends = "axial_periodic";
               p.length = 6e-4;

@@ -152,7 +152,7 @@ TEST_P(Opening, IntactAndUniformlyWidenedWallsAreClosed) {
   BodySetup setup = test::setup_of(p, 1e-7);
   const Lattice lattice = setup.lattice;
   const auto body = make_body(std::move(setup), test::self());
-  const OpeningGauge gauge(lattice, *body, test::self());
+  const OpeningGauge gauge(lattice, *body, test::self(), end_condition(p));
   EXPECT_EQ(gauge.area(), 0);
   body->set_state(test::sample(*body,
                                [](auto x) {
@@ -174,7 +174,8 @@ TEST(Opening, IntactWallsOfAnyFinenessAreClosed) {
     BodySetup setup = test::setup_of(p, 1e-9);
     const Lattice lattice = setup.lattice;
     const auto body = make_body(std::move(setup), test::self());
-    ASSERT_EQ(OpeningGauge(lattice, *body, test::self()).area(), 0) << lattice.section.size();
+    ASSERT_EQ(OpeningGauge(lattice, *body, test::self(), EndCondition::free).area(), 0)
+        << lattice.section.size();
   }
 }
 
@@ -185,7 +186,7 @@ TEST_P(Opening, KnownSlitIsMeasured) {
   BodySetup setup = test::setup_of(p, 1e-7);
   const Lattice lattice = setup.lattice;
   const auto body = make_body(std::move(setup), test::self());
-  const OpeningGauge gauge(lattice, *body, test::self());
+  const OpeningGauge gauge(lattice, *body, test::self(), end_condition(p));
   const double mid_radius = 1.75e-3, slit_length = 1e-3;
   for (double half_angle : {0.1, 0.3, 0.6}) {
     const auto bent = [&](std::array<double, 3> x) -> std::array<double, 3> {
@@ -208,7 +209,7 @@ TEST_P(Opening, KnownTearAcrossTheAxisIsMeasured) {
   BodySetup setup = test::setup_of(p, 1e-7);
   const Lattice lattice = setup.lattice;
   const auto body = make_body(std::move(setup), test::self());
-  const OpeningGauge gauge(lattice, *body, test::self());
+  const OpeningGauge gauge(lattice, *body, test::self(), end_condition(p));
   double mean_radius = 0;
   for (std::size_t c = 0; c < lattice.section.size(); ++c)
     mean_radius +=
@@ -225,6 +226,28 @@ TEST_P(Opening, KnownTearAcrossTheAxisIsMeasured) {
       EXPECT_NEAR(gauge.area(), exact, share == 1 ? 1e-9 * exact : 4 * lattice.spacing * gap) << gap;
     }
   }
+}
+
+TEST_P(Opening, TearAtTheSeamOfPeriodicEndsCountsAsAnyOther) {
+  Parameters p = test::paper_vessel(3e-3);
+  p.cross_section = GetParam();
+  p.ends = "axial_periodic";
+  BodySetup setup = test::setup_of(p, 1e-7);
+  const Lattice lattice = setup.lattice;
+  const auto body = make_body(std::move(setup), test::self());
+  const OpeningGauge gauge(lattice, *body, test::self(), end_condition(p));
+  EXPECT_EQ(gauge.area(), 0);
+  // Squeezed to half its length the piece gapes at the seam; the same towards the seam, in its middle.
+  const auto area = [&](double towards) {
+    const auto squeezed = [&](const std::array<double, 3>& x) -> std::array<double, 3> {
+      return {0, 0, 0.5 * (towards - x[2]) + (x[2] < 1.5e-3 && towards > 2e-3 ? -1.5e-3 : 0.0)};
+    };
+    body->set_state(test::sample(*body, squeezed), test::sample(*body, test::nothing));
+    return gauge.area();
+  };
+  const double at_seam = area(1.5e-3);
+  EXPECT_GT(at_seam, 2 * std::numbers::pi * 1.5e-3 * 1.4e-3);
+  EXPECT_NEAR(at_seam, area(3e-3), 1e-9 * at_seam);
 }
 
 TEST(Venting, ClosedForms) {

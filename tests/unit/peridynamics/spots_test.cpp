@@ -78,6 +78,20 @@ TEST(Spots, TheWallBreaksFirstWhereItIsWeak) {
   }
 }
 
+TEST(Spots, ReachAcrossTheSeamOfPeriodicEnds) {
+  Parameters p = spotted(0.4, 1, 0.5);
+  p.spots.position[0] = 0.1e-3;
+  resolve(p);
+  const double angle = std::numbers::pi;
+  EXPECT_NEAR(p.spots.nearness(0, mid_radius, angle, 3.8e-3), p.spots.nearness(0, mid_radius, angle, 0.4e-3),
+              1e-12);
+  EXPECT_GT(p.spots.nearness(0, mid_radius, angle, 3.8e-3), 0.7);
+  p.ends = "free";
+  p.spots.period = INFINITY;
+  resolve(p);
+  EXPECT_EQ(p.spots.nearness(0, mid_radius, angle, 3.8e-3), 0);
+}
+
 class ThinSpot : public testing::TestWithParam<const char*> {
  protected:
   Parameters parameters(double thickness) const {
@@ -146,7 +160,7 @@ TEST_P(ThinSpot, IsNoOpening) {
   const Lattice lattice = setup.lattice;
   const ThinSpots thin = setup.thin_spots;
   const auto body = make_body(std::move(setup), test::self());
-  const OpeningGauge gauge(lattice, *body, test::self(), thin);
+  const OpeningGauge gauge(lattice, *body, test::self(), EndCondition::axial_periodic, thin);
   EXPECT_EQ(gauge.area(), 0);
   const auto rest = test::sample(*body, test::nothing);
   body->set_state(test::sample(*body, [](auto x) { return std::array{0.2 * x[0], 0.2 * x[1], 0.0}; }), rest);
