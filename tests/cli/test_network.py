@@ -243,7 +243,8 @@ class Network(unittest.TestCase):
         self.write("n.toml", TREE)
         seen = []
         for tier, ranks in (("explicit", None), ("distributed", 2)):
-            self.run_well("n.toml", "-o", tier, "--set", f"network.tier={tier}", ranks=ranks)
+            self.run_well("n.toml", "-o", tier, "--set", f"network.tier={tier}", "--set", "network.shown_vessels=10000",
+                          ranks=ranks)
             with h5py.File(self.path / tier / "network.h5") as file:
                 vessel, radius = file["vessel/000000"][:], file["radius/000000"][:]
             self.assertEqual(len(set(vessel)), len(vessel))

@@ -219,7 +219,7 @@ TEST(HeterogeneousBody, StableStepIsThatOfTheMostExtensiblePlace) {
     const auto stable = [](Parameters& p) {
       resolve(p);
       const Lattice lattice = make_lattice(p);
-      return time_steps(p, lattice, make_families(p, lattice)).stable;
+      return stable_time_step(p, lattice, make_families(p, lattice));
     };
     EXPECT_NEAR(stable(spotted) / stable(uniform), 1, 1e-5) << law;
     EXPECT_LT(stable(uniform), 0.9 * stable(nominal)) << law;
