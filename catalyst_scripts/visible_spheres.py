@@ -35,8 +35,8 @@ def visible(up, across, depth, radius, height, width):
     across -= math.floor(across.min()) - 2 * reach
     row, column = up.astype(numpy.int32), across.astype(numpy.int32)
     shape = (int(row.max()) + 2 * reach + 1, int(column.max()) + 2 * reach + 1)
-    which = (bins * (up - row)).astype(numpy.int32) * bins + (bins * (across - column)).astype(numpy.int32)
-    place = (which * shape[0] + row) * shape[1] + column
+    own_bin = (bins * (up - row)).astype(numpy.int32) * bins + (bins * (across - column)).astype(numpy.int32)
+    place = (own_bin * shape[0] + row) * shape[1] + column
 
     middles = [((number + 0.5) / bins) - 0.5 for number in range(bins)]  # of bins, from their cell's
     offsets = [

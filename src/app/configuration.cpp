@@ -287,10 +287,6 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
       resolve_network(c, comm);
       if (c.is_coupled()) resolve_coupling(c);
     }
-    if (c.insitu.scripts.empty()) {
-      for (const char* key : {"insitu.every_steps", "insitu.renderer"})
-        no_effect(c, key, "without insitu.scripts");
-    }
     if (c.insitu.enabled) {
       find_files(c.insitu.scripts, "insitu.scripts", "Catalyst script", c.file, comm);
       parallel::on_root<InputError>(comm, [&] { refuse_what_is_no_script(c.insitu.scripts); });

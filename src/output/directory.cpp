@@ -86,7 +86,8 @@ void try_to_write_in(const fs::path& directory) {
   if (!reason.empty()) refuse(directory, reason);
 }
 
-/// For this program as long as it lives; ends with it, whatever happens. Null where there are no locks.
+/// Held as long as what is returned lives, or until this program ends, however it does. Where a file system
+/// knows no locks, nothing is held.
 std::shared_ptr<const void> lock(const fs::path& directory) {
   const int file = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return nullptr;

@@ -284,8 +284,8 @@ void resolve_ends(Parameters& p) {
           "a periodic piece must be longer than two horizons, here " + quantity(2 * *p.horizon, "m"),
           "vessel.length");
     }
-    p.spots.period = p.length;
   }
+  p.spots.period = ends == EndCondition::axial_periodic ? p.length : INFINITY;
 }
 
 }  // namespace

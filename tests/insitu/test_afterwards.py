@@ -42,6 +42,15 @@ class Afterwards(DriverTest):
             self.assertEqual(read(folder / "images" / "vessel_000050.png").shape, (720, 1280, 3))
             self.assertEqual(read(folder / "history.png").shape[1], 1080)
             self.assertGreater((folder / "movie.mp4").stat().st_size, 10_000)
+            # In the order of steps, which from the millionth on is not that of names.
+            intact, torn = (folder / "images" / f"vessel_{step}.png" for step in ("000000", "000050"))
+            intact.rename(folder / "images/vessel_999999.png")
+            torn.rename(folder / "images/vessel_1000000.png")
+            for tool in ([scripts / "make_movie.sh", folder / "images"],
+                         ["ffmpeg", "-loglevel", "error", "-i", folder / "movie.mp4", "-frames:v", "1", folder / "first.png"]):
+                subprocess.run(tool, env=ENVIRONMENT, check=True, stdout=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+            first, intact, torn = (read(folder / name) for name in ("first.png", "images/vessel_999999.png", "images/vessel_1000000.png"))
+            self.assertLess(numpy.abs(first - intact).mean(), 0.3 * numpy.abs(first - torn).mean())
             render = [scripts / "pvpython_headless", scripts / "render_network.py"]
             for file, message in (("particles.xdmf", "holds no flow and no kind and no pressure and no radius"),
                                   ("history.csv", "is not the network.xdmf of a run")):

@@ -87,7 +87,6 @@ TEST(Spots, ReachAcrossTheSeamOfPeriodicEnds) {
               1e-12);
   EXPECT_GT(p.spots.nearness(0, mid_radius, angle, 3.8e-3), 0.7);
   p.ends = "free";
-  p.spots.period = INFINITY;
   resolve(p);
   EXPECT_EQ(p.spots.nearness(0, mid_radius, angle, 3.8e-3), 0);
 }
