@@ -1,6 +1,9 @@
 #include "hemodynamics/bins.hpp"
 
 #include <bit>
+#include <cstdint>
+
+#include "hemodynamics/bin_finder.hpp"
 
 namespace rhexis::hemodynamics {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hemodynamics/bin_finder.hpp"
 #include "network/wall.hpp"
 #include "parallel/exchange.hpp"
 
@@ -15,6 +16,7 @@ using hemodynamics::lanes::width;
 
 /// Four bins to an octave, from below 64 down to 2^-10.
 const hemodynamics::Bins risk_bins{true, 64, 0, 63.5};
+const hemodynamics::BinFinder find_bin(risk_bins);
 
 /// Order of the list.
 bool before(const RankedVessel& a, const RankedVessel& b) {
@@ -35,7 +37,7 @@ double risk(const Criterion& c, double pressure, double relative_thickness,
 }
 
 RiskTally::RiskTally(int generations, std::size_t top)
-    : most_(top), generations_(static_cast<std::size_t>(generations) + 1), find_bin_(risk_bins) {
+    : most_(top), generations_(static_cast<std::size_t>(generations) + 1) {
   for (GenerationRisk& g : generations_) {
     for (auto& counts : g.counts) counts.resize(risk_bins.count);
   }
@@ -57,7 +59,7 @@ void RiskTally::add(int generation, network::VesselKind kind, const RankedVessel
   g.vessels[k] += vessel.alike;
   g.most[k] = std::max(g.most[k], vessel.risk);
   if (vessel.risk > 1) g.above[k] += vessel.alike;
-  const auto bin = hn::GetLane(find_bin_(hn::Set(Reals(), vessel.risk)));
+  const auto bin = hn::GetLane(find_bin(hn::Set(Reals(), vessel.risk)));
   g.counts[k][static_cast<std::size_t>(bin)] += static_cast<std::uint64_t>(vessel.alike);
   if (enters(vessel.risk)) enter(vessel);
 }
@@ -79,7 +81,7 @@ void RiskTally::add(int generation, network::VesselKind kind, std::uint64_t firs
     const auto r = hn::Load(d, risks + i);
     most = hn::Max(most, hn::IfThenElseZero(valid, r));
     above += hn::CountTrue(d, hn::And(valid, hn::Gt(r, hn::Set(d, 1.0))));
-    hn::Store(find_bin_(r), di, bin);
+    hn::Store(find_bin(r), di, bin);
     for (std::size_t n = 0; n < here; ++n) ++counts[bin[n]];
     const double least = list_.size() < most_ || list_.empty() ? 0 : list_.front().risk;
     if (hn::AllFalse(d, hn::And(valid, hn::Ge(r, hn::Set(d, least))))) continue;

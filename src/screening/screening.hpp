@@ -71,7 +71,6 @@ class RiskTally {
   std::size_t most_;
   std::vector<RankedVessel> list_;  ///< a heap, the last to stay first
   std::vector<GenerationRisk> generations_;
-  hemodynamics::BinFinder find_bin_;
 };
 
 /// Screens the vessels of a sweep over a tree, which all threads and ranks share out. Nothing depends on how.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hemodynamics/lanes.hpp"
 #include "network/wall.hpp"
 #include "parallel/threads.hpp"
 #include "screening/screening.hpp"
