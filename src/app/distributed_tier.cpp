@@ -52,16 +52,17 @@ class DistributedTier : public NetworkTier {
     say(fmt::format("  flow found in {}: {} unknowns after every rank's elimination", duration(spent),
                     grouped(flow.core_junctions)));
     s.vessels = total(static_cast<std::int64_t>(part_.local.vessels()));
-    s.junctions = count_junctions();
+    s.junctions = junctions_;
     s.inflow = flow.inflow;
     s.max_imbalance = flow.max_imbalance;
     s.solver = fmt::format("distributed, {}", hemodynamics::name_of(flow.solver));
     if (flow.iterations > 0) s.iterations = flow.iterations;
     s.highest_reynolds =
         comm_.all_reduce(highest_reynolds_number(part_.local, flow, mechanics_, {}), parallel::Reduce::max);
-    check_flow(s, extremes_of_all(flow.pressure));
+    const auto driving = extremes_of_all(flow.pressure);
     add_weight(part_.local, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
+    check_flow(s, driving);
     for (std::size_t i = 0; i < queried_.size(); ++i) {
       s.queries.push_back(query(queried_[i], flow));
       s.queries.back().name = c_.network.query[i];
@@ -79,6 +80,7 @@ class DistributedTier : public NetworkTier {
     const network::TreePair tree(c_.tree);
     auto part = tree.materialise_part(comm_.rank(), comm_.size());
     part_ = {std::move(part.graph), std::move(part.junction_id)};
+    junctions_ = static_cast<std::int64_t>(tree.junctions());
     vessel_id_ = std::move(part.vessel_id);
     for (const std::string& name : c_.network.query)
       queried_.push_back(static_cast<std::int64_t>(tree.id_of(name)));
@@ -86,7 +88,8 @@ class DistributedTier : public NetworkTier {
     const auto local = [&](std::int64_t id) {
       return std::find(part_.junction_id.begin(), part_.junction_id.end(), id) - part_.junction_id.begin();
     };
-    if (comm_.is_root()) {
+    // Both trunks belong to the same part.
+    if (local(0) < std::ssize(part_.junction_id)) {
       conditions_ = hemodynamics::conditions_of(driving_boundary(c_, tree, mechanics_.hydrostatic),
                                                 static_cast<std::uint32_t>(local(0)),
                                                 static_cast<std::uint32_t>(local(outlet)));
@@ -102,6 +105,7 @@ class DistributedTier : public NetworkTier {
     const auto share = [&](int r) {
       return whole.graph.vessels() * static_cast<std::size_t>(r) / static_cast<std::size_t>(comm_.size());
     };
+    junctions_ = static_cast<std::int64_t>(whole.graph.junctions);
     slice(whole, share(comm_.rank()), share(comm_.rank() + 1));
   }
 
@@ -142,16 +146,6 @@ class DistributedTier : public NetworkTier {
   }
 
   std::int64_t total(std::int64_t own) const { return comm_.all_reduce(own, parallel::Reduce::sum); }
-
-  /// Of the whole: the tree's by its rules; else the greatest number there is.
-  std::int64_t count_junctions() const {
-    if (c_.network.source == "tree") {
-      return static_cast<std::int64_t>(network::TreePair(c_.tree).junctions());
-    }
-    std::int64_t most = -1;
-    for (const std::int64_t id : part_.junction_id) most = std::max(most, id);
-    return comm_.all_reduce(most, parallel::Reduce::max) + 1;
-  }
 
   void measure(const hemodynamics::GraphFlow& flow, NetworkSolution& s) const {
     auto sums = lumen_of(part_.local);
@@ -213,6 +207,7 @@ class DistributedTier : public NetworkTier {
   parallel::Communicator comm_;
   hemodynamics::VesselMechanics mechanics_;
   hemodynamics::DistributedGraph part_;
+  std::int64_t junctions_ = 0;           ///< of the whole
   std::vector<std::int64_t> vessel_id_;  ///< [V] number in the whole
   std::vector<network::Condition> conditions_;
   std::vector<std::int64_t> queried_;  ///< numbers in the whole

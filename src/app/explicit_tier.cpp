@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "app/console.hpp"
 #include "app/graph_network.hpp"
@@ -74,10 +75,12 @@ class ExplicitTier : public NetworkTier {
 
  private:
   void mark_weak_vessels() {
+    std::map<network::VesselKind, std::vector<network::WallVariation::Range>> marks;
     for (const std::string& name : c_.network.weakness.vessels) {
       const std::uint32_t v = find_vessel(c_, network_.graph, name, "weakness.vessels");
-      mechanics_.variation.mark(kind_of(v), {v, v + 1});
+      marks[kind_of(v)].push_back({v, v + 1});
     }
+    for (auto& [kind, numbers] : marks) mechanics_.variation.mark(kind, std::move(numbers));
   }
   network::VesselKind kind_of(std::size_t v) const {
     return network_.graph.kind.empty() ? network::VesselKind::unknown : network_.graph.kind[v];
@@ -103,9 +106,10 @@ class ExplicitTier : public NetworkTier {
     s.solver = hemodynamics::name_of(flow.solver);
     if (flow.iterations > 0) s.iterations = flow.iterations;
     s.highest_reynolds = highest_reynolds_number(graph, flow, mechanics_, haematocrit_);
-    check_flow(s, extremes_of(flow.pressure));
+    const auto driving = extremes_of(flow.pressure);
     add_weight(network_.graph, mechanics_.hydrostatic, flow.pressure);
     measure(flow, s);
+    check_flow(s, driving);
     for (std::size_t i = 0; i < queried_.size(); ++i) {
       s.queries.push_back(describe(flow, queried_[i]));
       s.queries.back().name = c_.network.query[i];

@@ -37,7 +37,9 @@ class ImplicitTier : public NetworkTier {
     std::string text =
         fmt::format("tree pair of {} generations: {} vessels, radii from {} to {}{} (xi {})", r.generations,
                     grouped(static_cast<long long>(tree_.vessels())), quantity(r.root_radius, "m"),
-                    quantity(r.root_radius * std::pow(0.5, (r.generations - 1) / r.exponent), "m", 3),
+                    quantity(r.root_radius * std::pow(r.random_splits() ? 0.5 : r.narrower_share(r.asymmetry),
+                                                      (r.generations - 1) / r.exponent),
+                             "m", 3),
                     r.random_splits() ? " where splits are even" : "", text_of(r.exponent));
     if (r.random_splits()) text += fmt::format(", random splits (seed {})", r.seed);
     if (r.random_lengths()) text += ", random lengths";

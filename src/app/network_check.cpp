@@ -15,10 +15,6 @@
 namespace rhexis::app {
 namespace {
 
-/// What an explicit network takes, coordinates and solver included; measured on a tree pair of 33.5 million
-/// vessels.
-constexpr double explicit_bytes_per_vessel = 100;
-
 /// Seconds that a vessel of a streamed tree takes on these ranks, from a smaller tree of the same rules.
 double seconds_per_vessel(const Configuration& c, parallel::Communicator comm) {
   network::TreeRules rules = c.tree;
@@ -43,7 +39,7 @@ double seconds_per_vessel(const Configuration& c, parallel::Communicator comm) {
 }  // namespace
 
 void check_network(const Configuration& c, parallel::Communicator comm) {
-  const auto tier = prepared_tier(c, comm);
+  const auto tier = checked_tier(c, comm);
   Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
@@ -61,7 +57,7 @@ void check_network(const Configuration& c, parallel::Communicator comm) {
   console.item("from heart", fmt::format("{} to the midplane", quantity(-tree.inlet()[0], "m")));
   const bool implicit = c.network.tier == "auto" || c.network.tier == "implicit";
   if (!implicit) {
-    console.item("memory", fmt::format("about {:.3g} MB", vessels * explicit_bytes_per_vessel / 1e6));
+    console.item("memory", fmt::format("about {:.3g} MB", vessels * bytes_per_vessel / 1e6));
     return;
   }
   if (c.tree.repeats()) {

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <limits>
 
 namespace rhexis::app {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* kinds[2] = {"artery", "vein"};
 
 }  // namespace
@@ -40,18 +42,20 @@ std::string generation_table(const hemodynamics::TreeStatistics& s) {
 std::string histogram_table(const hemodynamics::TreeStatistics& s) {
   std::string table = "generation,kind,quantity,from,to,vessels\n";
   const auto add = [&](const auto& g, const char* kind, const char* quantity, const hemodynamics::Bins& bins,
-                       const std::vector<std::uint64_t>& counts) {
+                       double least, const std::vector<std::uint64_t>& counts) {
     for (std::size_t b = 0; b < counts.size(); ++b) {
       if (counts[b] == 0) continue;
-      fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{}\n", g.generation, kind, quantity,
-                     bins.lower_edge(b), bins.upper_edge(b), counts[b]);
+      // The last bin of a geometric histogram holds all below.
+      const double from = bins.geometric && b + 1 == counts.size() ? least : bins.lower_edge(b);
+      fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{}\n", g.generation, kind, quantity, from,
+                     bins.upper_edge(b), counts[b]);
     }
   };
   for (const auto& g : s.generations) {
-    add(g, "both", "flow_m3_s", s.flow_bins, g.flow_counts);
+    add(g, "both", "flow_m3_s", s.flow_bins, 0, g.flow_counts);
     for (std::size_t kind = 0; kind < 2; ++kind) {
-      add(g, kinds[kind], "pressure_Pa", s.pressure_bins, g.pressure_counts[kind]);
-      add(g, kinds[kind], "hoop_stress_Pa", s.stress_bins, g.stress_counts[kind]);
+      add(g, kinds[kind], "pressure_Pa", s.pressure_bins, -infinity, g.pressure_counts[kind]);
+      add(g, kinds[kind], "hoop_stress_Pa", s.stress_bins, -infinity, g.stress_counts[kind]);
     }
   }
   return table;

@@ -6,7 +6,11 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
+#include "network/tree_pair.hpp"
+#include "output/machine.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::app {
 
@@ -20,12 +24,43 @@ std::unique_ptr<NetworkTier> make_tier(const Configuration& c, parallel::Communi
   return make_explicit_tier(c, comm);
 }
 
+bool is_built_tree(const Configuration& c) {
+  return c.network.source == "tree" && (c.network.tier == "explicit" || c.network.tier == "distributed");
+}
+
+/// Throws InputError where a rank's share of a tree's vessels cannot be numbered, or held in memory.
+void check_size(const Configuration& c, int ranks) {
+  const double vessels = static_cast<double>(network::TreePair::vessels_of(c.tree.generations)) /
+                         (c.network.tier == "distributed" ? ranks : 1);
+  const double bytes = vessels * bytes_per_vessel, memory = output::physical_memory_bytes();
+  if (vessels < 0x1p31 && bytes < memory) return;
+  const char* more = c.network.tier == "distributed" ? "take more ranks, or" : "take";
+  throw InputError(fmt::format("this tree takes some {:.3g} GB on a rank, and this machine has {:.3g} GB; {} "
+                               "\"implicit\"",
+                               1e-9 * bytes, 1e-9 * memory, more),
+                   "network.tier");
+}
+
 }  // namespace
 
-std::unique_ptr<NetworkTier> prepared_tier(const Configuration& c, parallel::Communicator comm) {
+std::unique_ptr<NetworkTier> checked_tier(const Configuration& c, parallel::Communicator comm) {
   auto tier = make_tier(c, comm);
   try {
-    tier->prepare();
+    if (is_built_tree(c)) {
+      parallel::together<InputError>(comm, [&] { check_size(c, comm.size()); });
+    } else {
+      tier->prepare();
+    }
+  } catch (const InputError& error) {
+    throw input::located(error, c.resolved);
+  }
+  return tier;
+}
+
+std::unique_ptr<NetworkTier> prepared_tier(const Configuration& c, parallel::Communicator comm) {
+  auto tier = checked_tier(c, comm);
+  try {
+    if (is_built_tree(c)) tier->prepare();
   } catch (const InputError& error) {
     throw input::located(error, c.resolved);
   }
@@ -41,10 +76,24 @@ hemodynamics::TreeBoundary driving_boundary(const Configuration& c, const networ
   return b;
 }
 
+/// Pa; pressures are told from it.
+constexpr double atmosphere = 101325;
+
 void check_flow(NetworkSolution& s, const std::array<double, 2>& driving) {
+  if (!std::isfinite(s.inflow))
+    throw RunError("the flow of this network cannot be computed: it came out as " + text(s.inflow) + " m3/s");
   const auto [low, high] = driving;
   if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
     s.warnings.push_back("nothing flows: no difference of pressure drives blood through the network");
+  if (s.lowest_pressure < -atmosphere) {
+    s.warnings.push_back(fmt::format(
+        "the pressure falls to {}, below vacuum at {}: no fluid flows so; check the flows that are given",
+        mmhg(s.lowest_pressure), mmhg(-atmosphere)));
+  } else if (s.lowest_pressure < -1e-9 * (high - low)) {
+    s.warnings.push_back(fmt::format(
+        "the pressure falls to {}, below that around the vessels: real ones would collapse, these are rigid",
+        mmhg(s.lowest_pressure)));
+  }
   if (s.highest_reynolds > hemodynamics::laminar_reynolds_number) {
     s.warnings.push_back(
         fmt::format("the Reynolds number reaches {:.0f}; above {:.0f} flow is not laminar, and real "

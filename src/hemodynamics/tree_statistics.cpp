@@ -1,11 +1,14 @@
 #include "hemodynamics/tree_statistics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <vector>
 
+#include "hemodynamics/bin_finder.hpp"
 #include "hemodynamics/lanes.hpp"
 #include "network/wall.hpp"
 #include "parallel/exact_sum.hpp"
@@ -91,21 +94,16 @@ struct Context {
   Bins pressure_bins, flow_bins, stress_bins;
   double vein_ratio = 1;
   bool stress_by_radius[2]{};
-  double stress_factor[2]{};               ///< where it does not depend on the radius
-  network::IntervalTable stress_table[2];  ///< of the artery's radius
-  double narrow_radius[2]{};               ///< of the artery
-  double scale[quantities]{};
+  double stress_factor[2]{};                          ///< where it does not depend on the radius
+  network::IntervalTable stress_table[2];             ///< of the artery's radius
+  double narrow_radius[2]{};                          ///< of the artery
+  std::vector<std::array<double, quantities>> scale;  ///< of sums, by generation
 };
 
 struct GenerationGatherer {
   GenerationGatherer(const Context& c, int generation) {
     for (std::size_t table = 0; table < tables; ++table) counts[table].resize(counters[table]);
-    // Sums that grow with the number of vessels get a scale that fits a whole generation in one term.
-    const double many = std::ldexp(1.0, std::max(0, generation - 20));
-    for (std::size_t q = 0; q < quantities; ++q) {
-      const bool grows = q != flow && q != square_length && q != radius_length;
-      tallies.emplace_back(c.scale[q] * (grows ? many : 1));
-    }
+    for (const double scale : c.scale[static_cast<std::size_t>(generation)]) tallies.emplace_back(scale);
   }
 
   void add(const GenerationGatherer& other) {
@@ -239,6 +237,30 @@ class Gatherer : public VesselConsumer {
   std::vector<GenerationGatherer> generations_;
 };
 
+/// The longest that a vessel of a generation can be, over its radius.
+double longest_ratio(const network::TreeRules& rules, int generation, double narrowest) {
+  const auto ratio = [&](double radius) { return rules.length(generation, radius) / radius; };
+  double longest = std::max(ratio(narrowest), ratio(rules.root_radius));
+  for (const auto& [radius, length] : rules.length_by_radius)
+    if (radius > narrowest && radius < rules.root_radius) longest = std::max(longest, length / radius);
+  return longest * (1 + rules.length_spread);
+}
+
+/// Bounds for the sums over a generation (`top` and `stress`: of a vessel's pressure and hoop stress), so
+/// that the whole of it fits even in one term.
+std::array<double, quantities> scales(const network::TreeRules& rules, int generation, double narrowest,
+                                      double inflow, double top, double stress) {
+  // Sum of r^p: of r^xi it is the root's. Below that power the sum is greatest where all vessels are alike;
+  // above, one of them could have it all.
+  const auto powers = [&](int p) {
+    return std::pow(rules.root_radius, p) * std::exp2(generation * std::max(0.0, 1 - p / rules.exponent));
+  };
+  const double ratio = longest_ratio(rules, generation, narrowest);
+  const double many = std::ldexp(1.0, generation);
+  return {powers(1),  ratio * powers(1), inflow,        ratio * powers(3), ratio * powers(2),
+          top * many, top * many,        stress * many, stress * many};
+}
+
 Context make_context(const TreeFlow& flow, const Viscosity& viscosity) {
   const network::TreeRules& rules = flow.tree().rules();
   Context c;
@@ -267,11 +289,8 @@ Context make_context(const TreeFlow& flow, const Viscosity& viscosity) {
   }
   const double top = std::max(std::abs(least), std::abs(most));
   c.stress_bins = {true, std::size_t{1} << stress_shift, 0, top * largest_factor};
-  const double longest = rules.length(0, widest) * (1 + rules.length_spread);
-  const double scales[quantities] = {
-      widest, longest, std::abs(flow.flow()), widest * widest * longest, widest * longest,
-      top,    top,     c.stress_bins.high,    c.stress_bins.high};
-  std::copy_n(scales, +quantities, c.scale);
+  for (int generation = 0; generation < rules.generations; ++generation)
+    c.scale.push_back(scales(rules, generation, narrowest, std::abs(flow.flow()), top, c.stress_bins.high));
   return c;
 }
 

@@ -6,9 +6,36 @@
 #include "core/format.hpp"
 
 namespace rhexis::network {
+namespace {
+
+/// `key`: of the most unequal daughters' gamma.
+void check_narrowest(const TreeRules& rules, const char* key) {
+  // The wider daughter's share is what is computed, and what the narrower one gets the rest of it.
+  constexpr double least_share = 1e-8;
+  const double share = rules.narrower_share(rules.least_asymmetry);
+  if (share < least_share) {
+    throw InputError("with xi " + text(rules.exponent) + " the narrower daughter would get " + text(share) +
+                         " of r^xi, which is not above " + text(least_share),
+                     key);
+  }
+  // Random splits hardly ever take the narrowest path: there, only what numbers can hold is asked for.
+  const double least_radius = rules.random_splits() ? 1e-15 : 1e-9;
+  const double narrowest = rules.root_radius * std::pow(share, (rules.generations - 1) / rules.exponent);
+  if (narrowest < least_radius) {
+    throw InputError("the narrowest vessels would have a radius of " + quantity(narrowest, "m") +
+                         "; at least " + quantity(least_radius, "m") + " is allowed",
+                     rules.least_asymmetry < 1 ? key : "tree.generations");
+  }
+}
+
+}  // namespace
 
 double TreeRules::wider_share(double gamma) const {
   return 1 / (1 + std::pow(gamma, exponent / 2));
+}
+
+double TreeRules::narrower_share(double gamma) const {
+  return 1 / (1 + std::pow(gamma, -exponent / 2));
 }
 
 double TreeRules::length(int generation, double radius) const {
@@ -122,6 +149,7 @@ TreeRules rules_from(const TreeParameters& p, const Wall& artery_wall, const Wal
   rules.artery_wall = artery_wall;
   rules.vein_wall = vein_wall;
   rules.layout = p.layout == "planar" ? TreeLayout::planar : TreeLayout::spatial;
+  check_narrowest(rules, p.least_asymmetry ? "tree.least_asymmetry" : "tree.asymmetry");
   return rules;
 }
 

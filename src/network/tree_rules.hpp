@@ -48,7 +48,8 @@ struct TreeRules {
   /// All vessels of a generation are alike.
   bool repeats() const { return !random_splits() && !random_lengths() && asymmetry == 1; }
 
-  double wider_share(double gamma) const;  ///< 1 / (1 + gamma^(xi/2))
+  double wider_share(double gamma) const;     ///< 1 / (1 + gamma^(xi/2))
+  double narrower_share(double gamma) const;  ///< what that leaves
   /// Length by the rule, before the vessel's own factor (m).
   double length(int generation, double radius) const;
   /// Of the curve `length_by_radius`: straight between its points in logarithms of both; the outer lines go

@@ -48,9 +48,8 @@ WallVariation::WallVariation(const WeaknessParameters& p)
       thickness_(p.thickness_spread, static_cast<std::uint64_t>(p.seed), Stream::wall_thickness),
       weak_{p.strength, p.thickness} {}
 
-void WallVariation::mark(VesselKind kind, Range added) {
-  std::vector<Range>& marks = marks_[side(kind)];
-  marks.push_back(added);
+void WallVariation::mark(VesselKind kind, std::vector<Range> marks) {
+  marks.insert(marks.end(), marks_[side(kind)].begin(), marks_[side(kind)].end());
   std::sort(marks.begin(), marks.end(), [](const Range& a, const Range& b) { return a.first < b.first; });
   std::vector<Range> apart;
   for (const Range& range : marks) {
@@ -60,7 +59,7 @@ void WallVariation::mark(VesselKind kind, Range added) {
       apart.push_back(range);
     }
   }
-  marks = std::move(apart);
+  marks_[side(kind)] = std::move(apart);
 }
 
 void WallVariation::mark_in_tree(const WeaknessParameters& p, int generations) {
@@ -71,15 +70,18 @@ void WallVariation::mark_in_tree(const WeaknessParameters& p, int generations) {
       throw InputError(error.what(), key);
     }
   };
+  std::vector<Range> marks[2];
   for (const std::string& path : p.vessels) {
     const std::uint64_t id = find(path, "weakness.vessels"), place = TreePair::place_of(id);
-    mark(TreePair::kind_of(id), {place, place + 1});
+    marks[side(TreePair::kind_of(id))].push_back({place, place + 1});
   }
   for (const std::string& path : p.subtrees) {
     const std::uint64_t id = find(path, "weakness.subtrees"), place = TreePair::place_of(id);
     for (int down = 0; down < generations - TreePair::generation_of(place); ++down)
-      mark(TreePair::kind_of(id), {place << down, (place + 1) << down});
+      marks[side(TreePair::kind_of(id))].push_back({place << down, (place + 1) << down});
   }
+  for (const VesselKind kind : {VesselKind::artery, VesselKind::vein})
+    mark(kind, std::move(marks[side(kind)]));
 }
 
 bool WallVariation::marked(VesselKind kind, std::uint64_t number) const {

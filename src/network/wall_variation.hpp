@@ -75,7 +75,7 @@ class WallVariation {
   /// Nothing is marked yet.
   explicit WallVariation(const WeaknessParameters& p);
 
-  void mark(VesselKind kind, Range numbers);
+  void mark(VesselKind kind, std::vector<Range> numbers);
   /// Marks `vessels` and `subtrees` of a tree. Throws InputError, with its key, for a path that does not
   /// exist.
   void mark_in_tree(const WeaknessParameters& p, int generations);

@@ -73,6 +73,9 @@ WRONG = [
     ("files of a tree", TREE.replace("[network]", '[network]\nfiles = ["j.csv"]'), ["network.files", "source"]),
     ("haematocrit of one", TREE + "[blood]\nhaematocrit = 1\n", ["blood.haematocrit"]),
     ("huge explicit tree", tree("generations", "generations = 34").replace("[network]", '[network]\ntier = "explicit"'), ["network.tier", "implicit"]),
+    ("huge distributed tree", tree("generations", "generations = 40").replace("[network]", '[network]\ntier = "distributed"'), ["network.tier", "GB"]),
+    ("daughters of nothing", tree("least_asymmetry", "least_asymmetry = 1e-4\nradius_exponent = 6"), ["tree.least_asymmetry", "narrower daughter"]),
+    ("vessels thinner than molecules", tree("asymmetry", "asymmetry = 1e-3\nradius_exponent = 2").replace("least_asymmetry = 0.4\n", ""), ["tree.asymmetry", "narrowest", "m"]),
     ("absent script", TREE + '[insitu]\nscripts = ["nowhere.py"]\n', ["insitu.scripts", "nowhere.py"]),
 ]
 # name, junctions, vessels, message
@@ -124,8 +127,8 @@ class Network(unittest.TestCase):
             with self.subTest(name):
                 self.write("n.toml", text)
                 self.assert_refused(self.rhexis("run", "n.toml"), ["n.toml", *fragments], name, ["n.toml"])
-        self.write("n.toml", WRONG[-5][1])
-        self.assert_refused(self.rhexis("run", "n.toml", ranks=3), WRONG[-5][2], "three ranks", ["n.toml"])
+        self.write("n.toml", WRONG[-8][1])
+        self.assert_refused(self.rhexis("run", "n.toml", ranks=3), WRONG[-8][2], "three ranks", ["n.toml"])
 
     def test_wrong_files(self):
         self.write("n.toml", FILES)
@@ -299,6 +302,42 @@ class Network(unittest.TestCase):
         for text in ("8,190", "2 mm", "memory", "time"):
             self.assertIn(text, result.stdout)
         self.assertEqual(os.listdir(self.path), ["n.toml"])
+        result = self.rhexis("check", "n.toml", "--set", "network.tier=distributed", "--set", "tree.generations=40")
+        self.assert_refused(result, ["network.tier", "GB", "implicit"], "check of a tree that fits no machine", ["n.toml"])
+
+    def test_trees_of_one_generation_on_several_ranks(self):
+        self.write("n.toml", tree("generations", "generations = 1").replace('query = ["artery.", "vein.0110", "4095"]', "")
+                   .replace("[network]", '[network]\ntier = "distributed"'))
+        flows = []
+        for ranks in (1, 2, 3):
+            self.run_well("n.toml", "-o", "out", ranks=ranks)
+            flows.append(self.record("out")["results"]["network"]["inflow_m3_s"])
+        self.assertEqual(flows, [flows[0]] * 3)
+
+    def test_junctions_without_vessels_count(self):
+        self.write("n.toml", FILES)
+        self.write("v.csv", VESSELS)
+        self.write("j.csv", JUNCTIONS + "d,9,9,9,\n")
+        for tier, ranks in (("explicit", None), ("distributed", 2)):
+            self.run_well("n.toml", "-o", "out", "--set", f"network.tier={tier}", ranks=ranks)
+            self.assertEqual(self.record("out")["results"]["network"]["junctions"], 4)
+
+    def test_networks_without_places_are_not_drawn(self):
+        self.write("n.toml", FILES)
+        self.write("v.csv", "id,from,to,radius [um],length [mm]\n1,a,b,50,5\n2,b,c,40,12\n")
+        self.write("j.csv", "id,pressure [mmHg]\na,10\nb,\nc,0\n")
+        for more, ranks in (([], None), (["--set", "network.tier=distributed"], 2)):
+            result = self.run_well("n.toml", "-o", "out", "--set", f"insitu.scripts=['{SOURCE}/catalyst_scripts/network.py']", *more, ranks=ranks)
+            self.assertIn("no coordinates", result.stderr)
+            self.assertEqual(self.record("out")["status"], "completed")
+
+    def test_histograms_say_what_they_hold(self):
+        self.write("n.toml", tree("outlet_pressure", 'outlet_pressure = "-20 mmHg"'))
+        result = self.run_well("n.toml", "-o", "out")
+        self.assertIn("real ones would collapse", result.stderr)
+        with open(self.path / "out/histograms.csv", encoding="utf-8") as file:
+            edges = [row["from"] for row in csv.DictReader(file) if (row["kind"], row["quantity"]) == ("vein", "hoop_stress_Pa")]
+        self.assertIn("-inf", edges)
 
     def test_flows_that_mean_little_are_told(self):
         self.write("n.toml", FILES)
@@ -308,6 +347,8 @@ class Network(unittest.TestCase):
         for junctions, vessels, warning in (
                 (JUNCTIONS.replace("12,0", "12,"), VESSELS, "nothing flows"),
                 (JUNCTIONS, VESSELS.replace("[um]", "[mm]"), "the Reynolds number reaches"),
+                (JUNCTIONS.replace("12,0", "12,-20"), VESSELS, "the pressure falls to -20 mmHg"),
+                (JUNCTIONS.replace("12,0", "12,-1000"), VESSELS, "the pressure falls to -1000 mmHg, below vacuum"),
                 (JUNCTIONS, VESSELS, None)):
             self.write("j.csv", junctions)
             self.write("v.csv", vessels)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "core/error.hpp"
 #include "hemodynamics/tree_statistics.hpp"
@@ -221,6 +222,32 @@ TEST(TreeStatistics, BloodThatRunsBackwardsIsCountedByItsMagnitude) {
     EXPECT_EQ(t.generations[g].flow.mean, -s.generations[g].flow.mean);
     EXPECT_EQ(t.generations[g].flow_counts, s.generations[g].flow_counts);
   }
+}
+
+/// Where each generation has more wall, or longer vessels, than the one before.
+TEST(TreeStatistics, SumsFitHoweverTheyGrow) {
+  TreeRules rules = test::plain_rules(34);
+  rules.exponent = 6;
+  const TreePair spreading(rules);
+  const TreeStatistics s =
+      gather_statistics(TreeFlow(spreading, {}, {inlet, outlet, {}}, world()), {}, world());
+  double surface = 0;
+  for (int g = 0; g < 34; ++g)
+    surface += 2 * 2 * std::numbers::pi * 40 * std::pow(12.5e-3, 2) * std::exp2(g * (1 - 2 / 6.0));
+  EXPECT_NEAR(s.surface / surface, 1, 1e-12);
+
+  rules = test::random_rules(18);
+  rules.length_ratio_by_generation.assign(18, 50);
+  rules.length_ratio_by_generation[0] = 1e-3;
+  const TreePair stub(rules);
+  rules.length_ratio_by_generation[0] = 50;
+  const TreePair even(rules);
+  const auto lengths = [](const TreePair& tree) {
+    return gather_statistics(TreeFlow(tree, {}, {inlet, outlet, {}}, world()), {}, world())
+        .generations.back()
+        .mean_length;
+  };
+  EXPECT_EQ(lengths(stub), lengths(even));
 }
 
 TEST(TreeStatistics, BloodAtRestHasNumbers) {
