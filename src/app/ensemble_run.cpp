@@ -108,7 +108,7 @@ void EnsembleRun::open_results() {
     for (const Sample& s : samples_) text += ensemble::row(s);
     output::write_atomically(path, text);
     table_.open(path, std::ios::binary | std::ios::app);
-    if (!table_) throw RunError(path.string() + ": cannot be written");
+    if (!table_) output::cannot_write(path);
   });
 }
 
@@ -196,8 +196,7 @@ void EnsembleRun::keep(const std::vector<Sample>& finished) {
   samples_.insert(samples_.end(), finished.begin(), finished.end());
   parallel::on_root<RunError>(comm_, [&] {
     for (const Sample& s : finished) table_ << ensemble::row(s);
-    if (!(table_ << std::flush))
-      throw RunError((options_.directory / "samples.csv").string() + ": cannot be written");
+    if (!(table_ << std::flush)) output::cannot_write(options_.directory / "samples.csv");
   });
 }
 

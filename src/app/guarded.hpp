@@ -29,7 +29,7 @@ int guarded(parallel::Communicator comm, const Work& work) {
     say(error.what());
     return 3;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "rhexis: rank {}: {}\n", comm.rank(), error.what());
+    fmt::print(stderr, "rhexis: rank {}: {}\n", comm.rank(), reason_of(error));
     comm.abort(3);
   }
 }

@@ -57,6 +57,9 @@ Ending RunBase::recorded(const std::function<bool()>& work) {
   } catch (const RunError& error) {
     note_failure(error.what());
     throw;
+  } catch (const std::exception& error) {  // of this rank alone
+    if (record_) record_->fail_alone(reason_of(error));
+    throw;
   }
   if (interrupted) {
     record_->fail("interrupted", results_, performance());

@@ -21,6 +21,8 @@ namespace rhexis::app {
 
 /// What is run, and from what file: the first that a run says.
 void say_title(Console& console, const Configuration& c);
+/// Where `risk_of_load` knows it.
+void say_risk(Console& console, const peridynamics::Parameters& vessel);
 
 class RunBase {
  protected:

@@ -33,8 +33,7 @@ std::optional<Sample> simulate(const Parameters& p, const peridynamics::Paramete
   const auto refuse = [&] {
     throw RunError(fmt::format(
         "wall {} under {} (strength x {}, thickness x {}, stiffness x {}) became unstable by {}; use a "
-        "smaller "
-        "time.step_fraction (now {})",
+        "smaller time.step_fraction (now {}), in another folder: samples of both steps do not mix",
         wall, mmhg(pressure), text(sample.factors.strength), text(sample.factors.thickness),
         text(sample.factors.stiffness), quantity(time_at(sample.steps), "s"), text(vessel.step_fraction)));
   };

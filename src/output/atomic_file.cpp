@@ -24,4 +24,8 @@ void write_atomically(const std::filesystem::path& path, std::string_view text) 
   throw RunError(fmt::format("{}: cannot write the file: {}", path.string(), reason));
 }
 
+void cannot_write(const std::filesystem::path& path) {
+  throw RunError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
+}
+
 }  // namespace rhexis::output

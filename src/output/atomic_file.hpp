@@ -11,4 +11,7 @@ namespace rhexis::output {
 /// and the reason; the old file then stays. Local to the calling rank.
 void write_atomically(const std::filesystem::path& path, std::string_view text);
 
+/// After a stream failed: throws RunError that names the file and what `errno` says.
+[[noreturn]] void cannot_write(const std::filesystem::path& path);
+
 }  // namespace rhexis::output

@@ -36,12 +36,12 @@ bool is_result(std::string name) {
          (name.starts_with("particles_from_") && (name.ends_with(".h5") || name.ends_with(".xdmf")));
 }
 
-/// Rows below the header of an ensemble's table.
+/// Whole rows below the header of an ensemble's table.
 bool holds_samples(const fs::path& directory) {
   if (!fs::exists(directory / "samples.csv")) return false;
   std::istringstream table(whole_file(directory / "samples.csv"));
   std::string line;
-  return std::getline(table, line) && std::getline(table, line);
+  return std::getline(table, line) && std::getline(table, line) && !table.eof();
 }
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {

@@ -11,6 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::int64_t spare_bytes = 1 << 16;  ///< more than most records take
+
 template <class T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
@@ -91,6 +93,11 @@ RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance,
                             {"input", provenance.input},
                             {"warnings", Json::array()}});
   write("running", {}, {});
+  if (!communicator_.is_root()) return;
+  try {
+    spare_ = std::make_unique<SpareSpace>(path_, spare_bytes);
+  } catch (const RunError&) {  // what needs space first will say so
+  }
 }
 
 void RunRecord::warn(const std::string& text) {
@@ -98,11 +105,27 @@ void RunRecord::warn(const std::string& text) {
 }
 
 void RunRecord::complete(const Results& results, const Performance& performance) {
-  write("completed", results, performance);
+  end("completed", results, performance);
 }
 
 void RunRecord::fail(const std::string& reason, const Results& results, const Performance& performance) {
-  write("failed: " + reason, results, performance);
+  end("failed: " + reason, results, performance);
+}
+
+void RunRecord::fail_alone(const std::string& reason) noexcept {
+  try {
+    spare_.reset();
+    document_["status"] = "failed: " + reason;
+    for (const char* part : {"results", "performance"})
+      if (!document_.contains(part)) document_[part] = nullptr;  // only the first rank has them
+    write_atomically(path_, text());
+  } catch (const std::exception&) {  // the reason itself is about to be told
+  }
+}
+
+void RunRecord::end(const std::string& status, const Results& results, const Performance& performance) {
+  spare_.reset();
+  write(status, results, performance);
 }
 
 void RunRecord::write(const std::string& status, const Results& results, const Performance& performance) {
@@ -110,9 +133,13 @@ void RunRecord::write(const std::string& status, const Results& results, const P
     document_["status"] = status;
     document_["results"] = results;
     document_["performance"] = performance;
-    // A reason may quote a file name in any encoding; it must not cost us the record.
-    write_atomically(path_, document_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+    write_atomically(path_, text());
   });
+}
+
+std::string RunRecord::text() const {
+  // A reason may quote a file name in any encoding; it must not cost us the record.
+  return document_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace rhexis::output

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "output/disk_space.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::output {
@@ -100,12 +102,18 @@ class RunRecord {
   /// Status "failed: `reason`", with what is known so far.
   void fail(const std::string& reason, const Results& results, const Performance& performance);
 
+  /// Status "failed: `reason`" by one rank, which is about to end the program for all. Does not throw.
+  void fail_alone(const std::string& reason) noexcept;
+
  private:
   void write(const std::string& status, const Results& results, const Performance& performance);
+  void end(const std::string& status, const Results& results, const Performance& performance);
+  std::string text() const;
 
   std::filesystem::path path_;
   nlohmann::ordered_json document_;
   parallel::Communicator communicator_;
+  std::unique_ptr<SpareSpace> spare_;  ///< of the first rank: for the last words, should the disk be full
 };
 
 }  // namespace rhexis::output

@@ -15,7 +15,7 @@ struct Failure {
   static constexpr char end_of_key = '\0';
   static std::string text(const std::exception& error) {
     const auto* input = dynamic_cast<const InputError*>(&error);
-    return (input != nullptr ? input->key : std::string()) + end_of_key + error.what();
+    return (input != nullptr ? input->key : std::string()) + end_of_key + reason_of(error);
   }
   template <class Error>
   [[noreturn]] static void raise(const std::string& text) {

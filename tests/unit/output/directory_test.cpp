@@ -51,6 +51,14 @@ TEST(Directory, SamplesOfAnEnsembleAreNotRemoved) {
   prepare_directory(directory.path(), EarlierResults::keep, world);
 }
 
+TEST(Directory, ASampleThatWasCutShortIsNone) {
+  const TemporaryDirectory directory;
+  if (world.is_root()) std::ofstream(directory / "samples.csv") << "wall\n1";
+  world.barrier();
+  prepare_directory(directory.path(), EarlierResults::remove, world);
+  EXPECT_FALSE(fs::exists(directory / "samples.csv"));
+}
+
 TEST(Directory, IsForOneRunAtATime) {
   const TemporaryDirectory directory;
   const auto held = prepare_directory(directory / "a", EarlierResults::remove, world);

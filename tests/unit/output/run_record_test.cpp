@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <iterator>
 #include <sstream>
 
 #include "core/error.hpp"
+#include "small_disk.hpp"
 #include "temporary_directory.hpp"
 
 namespace rhexis {
@@ -88,6 +90,32 @@ TEST(RunRecord, TellsHowTheRunEnded) {
   json = Json::parse(test::text_of(directory / "run.json"));
   EXPECT_EQ(json["status"], "failed: disk full at \xEF\xBF\xBD");
   EXPECT_FALSE(std::filesystem::exists(directory / "run.json.part"));
+}
+
+TEST(RunRecord, TellsHowTheRunEndedOnAFullDisk) {
+  const test::TemporaryDirectory directory;
+  const test::SmallDisk disk(directory.path(), 256 * 1024);
+  if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
+  RunRecord record(directory / "run.json", {}, world);
+  if (world.is_root()) {
+    std::ofstream all(directory / "all");
+    while (all << std::string(4096, 'x') << std::flush) {
+    }
+  }
+  world.barrier();
+  record.fail("disk full", {}, {});
+  EXPECT_EQ(Json::parse(test::text_of(directory / "run.json"))["status"], "failed: disk full");
+}
+
+TEST(RunRecord, OneRankAloneMayTellHowTheRunEnded) {
+  const test::TemporaryDirectory directory;
+  RunRecord record(directory / "run.json", {.version = "0.1.0"}, world);
+  if (world.rank() == world.size() - 1) record.fail_alone("out of memory");
+  world.barrier();
+  const Json json = Json::parse(test::text_of(directory / "run.json"));
+  EXPECT_EQ(json["status"], "failed: out of memory");
+  EXPECT_EQ(json["version"], "0.1.0");
+  EXPECT_TRUE(json.contains("results") && json.contains("performance"));
 }
 
 TEST(RunRecord, AFolderThatIsNotThereIsARunErrorOnAllRanks) {
