@@ -35,6 +35,8 @@ view.UseColorPaletteForBackground = 0
 view.Background = [1.0, 1.0, 1.0]
 
 display = Show(particles, view)
+# Points are drawn alike on any number of ranks; ParaView's spheres ("Point Gaussian") are cut where ranks' parts meet.
+# vessel.py gathers what can be seen instead.
 display.Representation = "Points"
 display.PointSize = 3
 ColorBy(display, ("POINTS", "damage"))

@@ -7,6 +7,7 @@
 
 #include "app/console.hpp"
 #include "app/network_coupling.hpp"
+#include "app/run_base.hpp"
 #include "app/stopwatch.hpp"
 #include "core/format.hpp"
 #include "peridynamics/body.hpp"
@@ -42,7 +43,7 @@ double seconds_per_step(const Configuration& c, const Lattice& lattice, const Bo
 }
 
 /// Bytes that the wall takes: state, what bonds read, bond bits, and fields while they are observed and
-/// written.
+/// written; the copy that a checkpoint is made of.
 double body_bytes(const Configuration& c, const Lattice& lattice, const BondFamilies& families, int ranks) {
   const double real = c.vessel.bond_precision == "double" ? sizeof(double) : sizeof(float);
   const auto particles = static_cast<double>(lattice.particles());
@@ -58,7 +59,8 @@ double body_bytes(const Configuration& c, const Lattice& lattice, const BondFami
       static_cast<double>(families.bonds.size()) *
       (ranks * static_cast<double>(sizeof(peridynamics::Bond)) + 10 * real + 2 * sizeof(std::int32_t));
   const double observed = particles * (8 + 3 + 3) * sizeof(double);
-  return state + bits + tables + observed;
+  const double checkpoint = c.output.checkpoint_every > 0 ? particles * 6 * sizeof(double) + bits : 0;
+  return state + bits + tables + observed + checkpoint;
 }
 
 /// `say_more`: what else there is to say of the vessel.
@@ -99,6 +101,7 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
                            100 * error.relative_l2, 100 * error.spread,
                            peridynamics::surface_correction(c.vessel), c.vessel.layer));
   console.item("strength", peridynamics::describe_strength(c.vessel));
+  if (c.model == "vessel") say_risk(console, c.vessel);
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));

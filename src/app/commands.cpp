@@ -44,7 +44,7 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   run->add_option("--restart", command.restart, "Go on from a checkpoint of an earlier run")
       ->check(not_empty);
   run->add_flag("--quiet", command.quiet, "Print errors only");
-  keys->add_option("SECTION", command.section, "One section only");
+  keys->add_option("SECTION", command.section, "One section, or one key (section.key)");
 
   try {
     cli.parse(argc, argv);

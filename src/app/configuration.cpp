@@ -1,5 +1,7 @@
 #include "app/configuration.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -21,6 +23,7 @@
 #include "peridynamics/surface_correction.hpp"
 #include "peridynamics/thin_spots.hpp"
 #include "peridynamics/time_steps.hpp"
+#include "screening/screening.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -210,10 +213,11 @@ void resolve_coupling(Configuration& c) {
   if (p.window && *p.window > c.vessel.end_time)
     throw InputError("longer than the run, time.end = " + quantity(c.vessel.end_time, "s"),
                      "coupling.window");
+  if (!p.restartable() && c.output.checkpoint_every > 0)
+    throw InputError(
+        "checkpoints hold neither the state of two-way coupling nor that of a cascade; 0 is allowed",
+        "output.checkpoint_every");
   if (p.mode == "two_way") {
-    if (c.output.checkpoint_every > 0)
-      throw InputError("checkpoints do not hold the state of two-way coupling; 0 is allowed",
-                       "output.checkpoint_every");
     if (c.vessel.venting != "none" && given(c, "load.venting"))
       throw InputError("not with coupling.mode = \"two_way\", where the network says how the pressure falls",
                        "load.venting");
@@ -251,6 +255,17 @@ void resolve_coupling(Configuration& c) {
   }
 }
 
+/// A slip in a unit is a factor of ten at least.
+void warn_of_a_load_beyond_all(Configuration& c) {
+  constexpr double beyond_all = 5;
+  const std::optional<double> risk = risk_of_load(c.vessel);
+  if (!risk || *risk < beyond_all) return;
+  c.warnings.push_back(fmt::format(
+      "under {} the lumen would stretch to {:.3g} times material.critical_stretch: the wall is blown "
+      "to pieces at a small part of this load; check the units",
+      quantity(peridynamics::highest_pressure(c.vessel), "Pa"), *risk));
+}
+
 }  // namespace
 
 void resolve_wall(Configuration& c) {
@@ -268,6 +283,12 @@ void resolve_wall(Configuration& c) {
   }
 }
 
+std::optional<double> risk_of_load(const peridynamics::Parameters& v) {
+  if (v.law.name == "fung") return {};
+  return screening::risk({*v.critical_stretch, v.young_modulus, v.law.poisson_ratio, 0},
+                         peridynamics::highest_pressure(v), v.outer_radius / v.inner_radius - 1, {1, 1});
+}
+
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
                                  parallel::Communicator comm) {
   Configuration c;
@@ -281,6 +302,7 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
   try {
     if (c.model == "vessel") {
       resolve_vessel(c);
+      warn_of_a_load_beyond_all(c);
     } else if (c.is_ensemble()) {
       resolve_ensemble(c);
     } else {

@@ -61,6 +61,10 @@ ParameterList declare(Configuration& c);
 /// network, so this has to wait for that. Throws InputError, complete with place.
 void resolve_wall(Configuration& c);
 
+/// The risk (screening/screening.hpp) of a wall without spots or scatter under its schedule's highest
+/// pressure; none of a wall that stiffens.
+std::optional<double> risk_of_load(const peridynamics::Parameters& vessel);
+
 /// Reads and validates `file` with `overrides`, and settles what follows from them: time step and plan of
 /// output, or the rules of a tree. Only the sections of the scene's model are read; any other is an error.
 /// Collective: one rank reads, all get the same configuration or the same InputError.

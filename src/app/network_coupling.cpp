@@ -13,6 +13,7 @@
 #include "coupling/bleeding.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/viscosity.hpp"
+#include "output/atomic_file.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/opening.hpp"
 
@@ -194,7 +195,7 @@ void NetworkCoupling::open(const std::filesystem::path& directory) {
   table_path_ = directory / "coupling.csv";
   parallel::on_root<RunError>(comm_, [&] {
     table_.open(table_path_);
-    if (!(table_ << table_header << std::flush)) throw RunError(table_path_.string() + ": cannot be written");
+    if (!(table_ << table_header << std::flush)) output::cannot_write(table_path_);
   });
 }
 
@@ -224,7 +225,7 @@ void NetworkCoupling::exchange(const Wall& wall) {
                           wall.schedule * load_.pressure[2], wall.opening, leak_, wall.schedule * now.inflow,
                           wall.schedule * now.outflow, wall.resistance_factor, now.imbalance())
            << std::flush;
-    if (!table_) throw RunError(table_path_.string() + ": cannot be written");
+    if (!table_) output::cannot_write(table_path_);
   });
   double values[] = {load_.pressure[0], load_.pressure[1], load_.pressure[2], leak_, highest_reynolds_};
   if (!comm_.is_root()) std::fill(std::begin(values), std::end(values), 0.0);
@@ -310,13 +311,12 @@ void NetworkCoupling::say_header(Console& console) const {
 
 void NetworkCoupling::say_summary(Console& console) const {
   if (two_way()) {
-    console.item(
-        "bleeding",
-        fmt::format(
-            "{:.3g} mL/min at the end, {:.3g} uL in all; net pressure in the middle then {}, in the intact "
-            "vessel {}",
-            leak_ * 6e7, leaked_ * 1e9, mmhg(schedule_ * load_.pressure[1]),
-            mmhg(schedule_ * first_load_.pressure[1])));
+    console.item("bleeding",
+                 fmt::format("{} at the end, {:.3g} uL in all, Reynolds number in the vessel up to {:.0f}; "
+                             "net pressure in the "
+                             "middle then {}, in the intact vessel {}",
+                             quantity(leak_ * 6e4, "L/min", 3), leaked_ * 1e9, highest_reynolds_,
+                             mmhg(schedule_ * load_.pressure[1]), mmhg(schedule_ * first_load_.pressure[1])));
     console.item("conserved", fmt::format("blood to {:.1e} of the inflow at worst, {} exchanges",
                                           worst_imbalance_, windows_));
   }

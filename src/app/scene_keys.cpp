@@ -117,11 +117,13 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
   const auto refuse = [&](const std::string& place, const std::string& what, const std::string& name,
                           const auto& has) {
     if (has(*chosen, name)) return;
+    std::string others;
     for (const auto& [other, keys] : models) {
-      if (!has(keys, name)) continue;
-      throw InputError(place + ": " + what + " belongs to scenes with scene.model = \"" + other +
-                       "\"; this scene's is \"" + model + "\"");
+      if (has(keys, name)) others += (others.empty() ? "\"" : ", \"") + other + '"';
     }
+    if (others.empty()) return;  // the reader will refuse it
+    throw InputError(place + ": " + what + " belongs to scenes with scene.model = " + others +
+                     "; this scene's is \"" + model + "\"");
   };
   for (const input::Section& section : document.sections) {
     refuse(document.file + ":" + std::to_string(section.line), "section [" + section.name + "]", section.name,

@@ -3,9 +3,18 @@
 
 #include "app/vessel_run.hpp"
 #include "core/format.hpp"
+#include "peridynamics/schedule.hpp"
 #include "peridynamics/strength.hpp"
 
 namespace rhexis::app {
+
+void say_risk(Console& console, const peridynamics::Parameters& v) {
+  const std::optional<double> risk = risk_of_load(v);
+  if (!risk) return;
+  console.item(
+      "risk", fmt::format("{:.3g} at {}: the lumen's hoop strain, were it elastic, over the critical stretch",
+                          *risk, quantity(peridynamics::highest_pressure(v), "Pa")));
+}
 
 void VesselRun::say_header() {
   const peridynamics::Parameters& v = c_.vessel;
@@ -39,11 +48,14 @@ void VesselRun::say_header() {
   console_.item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
                                     quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
                                     quantity(c_.stable_time_step, "s")));
-  console_.item("load",
-                fmt::format("{} ({}), layer {}, venting {}",
-                            quantity(v.schedule == "table" ? v.table.back().second : v.pressure, "Pa"),
-                            v.schedule, v.layer, v.venting));
-  if (coupling_ != nullptr) coupling_->say_header(console_);
+  console_.item(
+      "load", fmt::format("{} ({}), layer {}, venting {}", quantity(peridynamics::highest_pressure(v), "Pa"),
+                          v.schedule, v.layer, v.venting));
+  if (coupling_ != nullptr) {
+    coupling_->say_header(console_);
+  } else {
+    say_risk(console_, v);
+  }
   say_surroundings();
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "app/interrupt.hpp"
 #include "app/stopwatch.hpp"
@@ -45,6 +46,7 @@ Ending VesselRun::run() {
     say_header();
     if (c_.vessel.equilibrium_pressure > 0 && options_.restart.empty()) start_at_equilibrium();
     time_loop();
+    warn_of_odd_openings();
     if (series_) series_->finish();
     if (coupling_ != nullptr) {
       coupling_->end(time_at(step_));
@@ -171,6 +173,25 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   }
 }
 
+/// The opening is measured between particles, wherever they have gone.
+void VesselRun::warn_of_odd_openings() {
+  if (!results_.rupture_onset_s) return;
+  const peridynamics::Parameters& v = c_.vessel;
+  const double wall = 2 * std::numbers::pi * v.inner_radius * v.length;
+  if (open_area_ > wall) {
+    warn(
+        fmt::format("the opening at the end, {:.3g} mm2, is larger than the lumen's surface of the simulated "
+                    "wall, {:.3g} mm2: fragments have flown apart, and the leak is that of no wall at all",
+                    1e6 * open_area_, 1e6 * wall));
+  }
+  if (v.venting == "orifice" && least_vent_ == 1 && *results_.rupture_length_m > 0.9 * v.length) {
+    warn(
+        "the wall is ruptured over its length, but no row of it ever showed a gap, so the load was not "
+        "vented: "
+        "a wall that tears all around at once counts as open late, or never");
+  }
+}
+
 std::string VesselRun::unstable_message(long step, const std::string& sign) const {
   return fmt::format(
       "the run became unstable by step {} ({}): {}; use a smaller time.step (now {}; {} is stable "
@@ -249,10 +270,10 @@ void VesselRun::exchange(long step) {
   const double reynolds = coupling_->highest_reynolds();
   if (results_.rupture_onset_s && reynolds > hemodynamics::laminar_reynolds_number && !turbulence_was_said_) {
     turbulence_was_said_ = true;
-    warn(
-        fmt::format("at {} the Reynolds number in the torn vessel reaches {:.0f}; above {:.0f} flow is not "
-                    "laminar: real resistances are higher than those of Eq. (9), and less leaks",
-                    quantity(time_at(step), "s"), reynolds, hemodynamics::laminar_reynolds_number));
+    warn(fmt::format(
+        "at {} the Reynolds number in the torn vessel has reached {:.0f}; above {:.0f} flow is not "
+        "laminar: real resistances are higher than those of Eq. (9), and less leaks",
+        quantity(time_at(step), "s"), reynolds, hemodynamics::laminar_reynolds_number));
   }
 }
 

@@ -39,6 +39,7 @@ class VesselRun : private RunBase {
   void check_balance(long step, const peridynamics::Totals& t) const;
   bool balance_due(long step) const;
   void warn_of_crushed_bonds(long step, const peridynamics::Totals& t);
+  void warn_of_odd_openings();
   void observe(long step, bool with_output, bool with_pictures);
   bool pictures_due(long step, bool output_due);
   void take_notice(long step, std::uint64_t flags);

@@ -31,14 +31,17 @@ Piece choose_piece(const VesselData& v, std::int64_t particles, bool always_pape
   }
   if (piece.length < least_rows * piece.spacing) {
     const bool short_vessel = piece.whole;
-    throw InputError(short_vessel
-                         ? "the vessel (" + quantity(v.length, "m") + ") is shorter than 10 spacings of " +
-                               quantity(piece.spacing, "m") + ", which " + std::to_string(particles) +
-                               " particles leave; take more particles, or a longer vessel"
-                         : std::to_string(particles) + " particles at 5 spacings across the wall (" +
-                               quantity(v.wall_thickness, "m") +
-                               ") fill fewer than 10 rows of this vessel; take more",
-                     "discretisation.particles");
+    throw InputError(
+        short_vessel
+            ? "the vessel (" + quantity(v.length, "m") + ") is shorter than 10 spacings of " +
+                  quantity(piece.spacing, "m") + ", which " + std::to_string(particles) +
+                  " particles leave; take more particles, or a longer vessel"
+            : std::to_string(particles) + " particles at 5 spacings across the wall (" +
+                  quantity(v.wall_thickness, "m") + ") fill fewer than 10 rows of this vessel; take " +
+                  std::to_string(
+                      std::lround(std::ceil(least_rows * wall_area / (piece.spacing * piece.spacing)))) +
+                  " or more",
+        "discretisation.particles");
   }
   return piece;
 }

@@ -63,7 +63,9 @@ std::string describe_key(const Parameter& declared, const Columns& columns) {
 
 }  // namespace
 
-std::string describe_keys(const ParameterList& parameters, std::string_view section) {
+std::string describe_keys(const ParameterList& parameters, std::string_view which) {
+  const bool one_key = find(parameters, which) != nullptr;
+  const std::string section = one_key ? section_of(which) : std::string(which);
   if (!section.empty()) check_section(parameters, section);
   const Columns columns = columns_of(parameters);
   std::string text = wrapped(introduction, width, 0) + "\n";
@@ -72,7 +74,8 @@ std::string describe_keys(const ParameterList& parameters, std::string_view sect
     text += is_repeated(parameters, name) ? fmt::format("\n[[{}]]  (any number of them)\n", name)
                                           : fmt::format("\n[{}]\n", name);
     for (const Parameter& parameter : parameters)
-      if (section_of(parameter.key) == name) text += describe_key(parameter, columns);
+      if (section_of(parameter.key) == name && (!one_key || parameter.key == which))
+        text += describe_key(parameter, columns);
   }
   return text;
 }

@@ -104,8 +104,12 @@ std::string example_with(std::string_view number, std::string_view unit) {
   if (is_plain(unit)) return "for example 0.25 or \"25 %\"";
   const Kind* kind = kind_of(unit);
   if (!kind) return fmt::format("for example \"{} {}\"", number, unit);
-  if (kind->usual_too.empty()) return fmt::format("for example \"{} {}\"", number, kind->usual);
-  return fmt::format("for example \"{0} {1}\" or \"{0} {2}\"", number, kind->usual, kind->usual_too);
+  // A number that was meant is most often one of SI.
+  std::string text = fmt::format("for example \"{} {}\"", number, kind->unit);
+  for (const std::string_view usual : {kind->usual, kind->usual_too}) {
+    if (!usual.empty() && usual != kind->unit) text += fmt::format(" or \"{} {}\"", number, usual);
+  }
+  return text;
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -20,13 +20,14 @@ double interpolate(const std::vector<CurvePoint>& table, double time) {
   return before->second + share * (after->second - before->second);
 }
 
-/// First time at which the table reaches `pressure` from below; empty where it does not.
+/// First time at which the table has `pressure`, rising or falling; empty where it never has.
 std::optional<double> time_in(const std::vector<CurvePoint>& table, double pressure) {
-  if (table.front().second >= pressure) return table.front().first;
+  if (table.front().second == pressure) return table.front().first;
   for (std::size_t i = 1; i < table.size(); ++i) {
     const auto [time, before] = table[i - 1];
     const auto [end, after] = table[i];
-    if (after >= pressure) return time + (pressure - before) / (after - before) * (end - time);
+    if (std::min(before, after) <= pressure && pressure <= std::max(before, after))
+      return time + (pressure - before) / (after - before) * (end - time);
   }
   return {};
 }
@@ -42,6 +43,11 @@ double schedule_share(const Parameters& p, double time_s) {
 double scheduled_pressure(const Parameters& p, double time_s) {
   if (p.schedule == "table") return interpolate(p.table, p.schedule_start + time_s);
   return p.pressure * schedule_share(p, time_s);
+}
+
+double highest_pressure(const Parameters& p) {
+  if (p.schedule != "table") return p.pressure;
+  return std::ranges::max(p.table, {}, &CurvePoint::second).second;
 }
 
 double time_of_pressure(const Parameters& p, double pressure) {

@@ -16,6 +16,9 @@ double schedule_share(const Parameters& p, double time_s);
 /// with t counted from schedule_start.
 double scheduled_pressure(const Parameters& p, double time_s);
 
+/// The most that the schedule ever has, Pa.
+double highest_pressure(const Parameters& p);
+
 /// When, in s, the schedule first has `pressure` (Pa; 0 for "step"). Throws InputError where it never has.
 double time_of_pressure(const Parameters& p, double pressure);
 

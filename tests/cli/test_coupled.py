@@ -56,6 +56,8 @@ WRONG = [
     ("checkpoints of two-way coupling", changed(TWO_WAY, "precision", "checkpoint_every = 9"), [r"c\.toml:34: output\.checkpoint_every = 9: ", "two.way"]),
     ("checkpoints of a cascade", changed(TWO_WAY, "precision", "checkpoint_every = 9") + "[cascade]\nevents = 2\n",
      [r"c\.toml:34: output\.checkpoint_every = 9: ", "two.way"]),
+    ("checkpoints of a one-way cascade", changed(changed(TWO_WAY, "precision", "checkpoint_every = 9"), "mode", 'mode = "one_way"')
+     + "[cascade]\nevents = 2\n", [r"c\.toml:34: output\.checkpoint_every = 9: ", "cascade"]),
 ]
 
 

@@ -150,6 +150,23 @@ TEST(Warnings, OfRampsThatAreNotOverAtTheEnd) {
   EXPECT_NE(warnings_of(ensemble, {"load.ramp_time=0.8 ms"}).front().find(" 50 % "), std::string::npos);
 }
 
+TEST(Warnings, OfALoadThatIsBeyondAll) {
+  EXPECT_EQ(warnings_of(vessel), std::vector<std::string>{});
+  const auto warnings = warnings_of(vessel, {"load.pressure=100 MPa"});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings.front().find("check the units"), std::string::npos) << warnings.front();
+}
+
+TEST(Risk, IsThatOfLamesHoopStrainAtTheLumen) {
+  const test::TemporaryDirectory folder;
+  const std::string file = (folder / "scene.toml").string();
+  const auto world = parallel::Communicator::world();
+  if (world.is_root()) std::ofstream(file) << vessel;
+  const peridynamics::Parameters v = read_configuration(file, {}, world).vessel;
+  const double hoop = (2.0 * 2.0 + 1.5 * 1.5) / (2.0 * 2.0 - 1.5 * 1.5);  // over the pressure
+  EXPECT_NEAR(risk_of_load(v).value(), 1e5 * (hoop + 0.25) / v.young_modulus / *v.critical_stretch, 1e-12);
+}
+
 TEST(Warnings, OfBloodThatRunsBackwards) {
   EXPECT_EQ(warnings_of(tree, {"flow.inlet_pressure=1 mmHg"}).size(), 1u);
 }

@@ -52,7 +52,18 @@ TEST(HandOver, ClampedEndsHoldTheWallBackThatFar) {
 
 TEST(HandOver, TooFewRows) {
   EXPECT_THROW(choose_piece({1.5e-3, 0.5e-3, 0.2e-3}, 55000, false), InputError);  // a ring
-  EXPECT_THROW(choose_piece({12.5e-3, 0.1e-3, 0.4}, 55000, false), InputError);    // a film
+  const VesselData film{12.5e-3, 0.1e-3, 0.4};
+  try {
+    choose_piece(film, 55000, false);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    const std::size_t at = message.find("take ");
+    ASSERT_NE(at, std::string::npos) << message;
+    const long enough = std::stol(message.substr(at + 5));
+    EXPECT_NO_THROW(choose_piece(film, enough, false)) << message;
+    EXPECT_THROW(choose_piece(film, enough - 1, false), InputError) << message;
+  }
 }
 
 TEST(HandOver, KeepsTheUsersSpacing) {

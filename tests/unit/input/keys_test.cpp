@@ -44,6 +44,13 @@ TEST(Keys, SayWhatIsRequiredAndWhereItIsFrom) {
   EXPECT_NE(text.find("Inner radius before loading. (Table 1)\n"), std::string::npos) << text;
 }
 
+TEST(Keys, OneAloneMayBeAskedFor) {
+  Sample sample;
+  const std::string text = describe_keys(sample.parameters(), "vessel.inner_radius");
+  EXPECT_NE(text.find("\n[vessel]\n  inner_radius "), std::string::npos) << text;
+  EXPECT_EQ(text.find("\n  length "), std::string::npos) << text;
+}
+
 TEST(Keys, SayWhereTheyHaveNoEffect) {
   Sample sample;
   const auto expect = [&](const char* section, const std::string& line) {

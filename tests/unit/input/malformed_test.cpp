@@ -109,7 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"unit_missing",
              "\n[vessel]\ninner_radius = \"1.5\"\n",
-             {"a.toml:3: vessel.inner_radius = \"1.5\": a unit is missing; write for example \"1.5 mm\"",
+             {"a.toml:3: vessel.inner_radius = \"1.5\": a unit is missing; write for example \"1.5 m\" or "
+              "\"1.5 mm\" or \"1.5 um\"",
               "(allowed: greater than 0 m)"}},
         Case{"number_without_unit",
              "[vessel]\nlength = 20\n",

@@ -136,9 +136,14 @@ TEST(Schedule, StartsWhereItFirstHasAPressure) {
   EXPECT_DOUBLE_EQ(starts_with("table", 10), 1);
   EXPECT_DOUBLE_EQ(starts_with("table", 20), 1.5);
   EXPECT_DOUBLE_EQ(starts_with("table", 49), 3.8);
+  EXPECT_DOUBLE_EQ(starts_with("table", 5), 3) << "below its first pressure, as it falls";
+  EXPECT_DOUBLE_EQ(starts_with("table", 7.5), 2.9);
+  EXPECT_THROW(time_of_pressure(p, 4), InputError);
   EXPECT_THROW(time_of_pressure(p, 61), InputError);
+  EXPECT_EQ(highest_pressure(p), 60);
   p.schedule = "ramp";
   EXPECT_THROW(time_of_pressure(p, 101), InputError);
+  EXPECT_EQ(highest_pressure(p), 100);
   p.schedule = "step";
   EXPECT_EQ(time_of_pressure(p, 40), 0);
 }
