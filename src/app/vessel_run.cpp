@@ -181,7 +181,7 @@ void VesselRun::warn_of_odd_openings() {
   if (open_area_ > wall) {
     warn(
         fmt::format("the opening at the end, {:.3g} mm2, is larger than the lumen's surface of the simulated "
-                    "wall, {:.3g} mm2: fragments have flown apart, and the leak is that of no wall at all",
+                    "wall, {:.3g} mm2: fragments have flown apart, and it is no hole in a wall any more",
                     1e6 * open_area_, 1e6 * wall));
   }
   if (v.venting == "orifice" && least_vent_ == 1 && *results_.rupture_length_m > 0.9 * v.length) {
