@@ -313,8 +313,7 @@ void NetworkCoupling::say_summary(Console& console) const {
   if (two_way()) {
     console.item("bleeding",
                  fmt::format("{} at the end, {:.3g} uL in all, Reynolds number in the vessel up to {:.0f}; "
-                             "net pressure in the "
-                             "middle then {}, in the intact vessel {}",
+                             "net pressure in the middle then {}, in the intact vessel {}",
                              quantity(leak_ * 6e4, "L/min", 3), leaked_ * 1e9, highest_reynolds_,
                              mmhg(schedule_ * load_.pressure[1]), mmhg(schedule_ * first_load_.pressure[1])));
     console.item("conserved", fmt::format("blood to {:.1e} of the inflow at worst, {} exchanges",

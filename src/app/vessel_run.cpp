@@ -187,8 +187,7 @@ void VesselRun::warn_of_odd_openings() {
   if (v.venting == "orifice" && least_vent_ == 1 && *results_.rupture_length_m > 0.9 * v.length) {
     warn(
         "the wall is ruptured over its length, but no row of it ever showed a gap, so the load was not "
-        "vented: "
-        "a wall that tears all around at once counts as open late, or never");
+        "vented: a wall that tears all around at once counts as open late, or never");
   }
 }
 
