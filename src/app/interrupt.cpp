@@ -1,6 +1,11 @@
 #include "app/interrupt.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
+#include <cstdio>
+#include <string_view>
 
 namespace rhexis::app {
 namespace {
@@ -12,17 +17,53 @@ extern "C" void note_interrupt(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+/// Made beforehand, because a handler may neither allocate nor format.
+struct {
+  std::string file, part, text;
+} last_words;
+
+void write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = write(file, text.data(), text.size());
+    if (written <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+extern "C" void say_last_words(int) {
+  const int file = open(last_words.part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file >= 0) {
+    write_all(file, last_words.text);
+    close(file);
+    rename(last_words.part.c_str(), last_words.file.c_str());
+  }
+  write_all(STDERR_FILENO, "rhexis: interrupted\n");
+  _exit(130);
+}
+
+void catch_signals(void (*handler)(int)) {
+  std::signal(SIGINT, handler);
+  std::signal(SIGTERM, handler);
+}
+
 }  // namespace
+
+LastWords::LastWords(const std::filesystem::path& file, std::string text) {
+  last_words = {file.string(), file.string() + ".part", std::move(text)};
+  catch_signals(say_last_words);
+}
+
+LastWords::~LastWords() {
+  catch_signals(SIG_DFL);
+}
 
 InterruptGuard::InterruptGuard() {
   interrupt_requested = 0;
-  std::signal(SIGINT, note_interrupt);
-  std::signal(SIGTERM, note_interrupt);
+  catch_signals(note_interrupt);
 }
 
 InterruptGuard::~InterruptGuard() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  catch_signals(SIG_DFL);
 }
 
 bool InterruptGuard::requested() {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
+#include "app/interrupt.hpp"
 #include "app/network_files.hpp"
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
@@ -20,6 +23,8 @@ Ending NetworkRun::run() {
     open_record();
     start_insitu();
     say_header();
+    std::optional<LastWords> words;
+    if (comm_.is_root()) words.emplace(options_.directory / "run.json", record_->failed_text("interrupted"));
     solve();
     {
       const Stopwatch watch(spent_.output);

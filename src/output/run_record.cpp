@@ -13,6 +13,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t spare_bytes = 1 << 16;  ///< more than most records take
 
+std::string text_of(const Json& document) {
+  // A reason may quote a file name in any encoding; it must not cost us the record.
+  return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 template <class T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
@@ -112,13 +117,18 @@ void RunRecord::fail(const std::string& reason, const Results& results, const Pe
   end("failed: " + reason, results, performance);
 }
 
+std::string RunRecord::failed_text(const std::string& reason) const {
+  Json document = document_;
+  document["status"] = "failed: " + reason;
+  for (const char* part : {"results", "performance"})
+    if (!document.contains(part)) document[part] = nullptr;  // only the first rank has them
+  return text_of(document);
+}
+
 void RunRecord::fail_alone(const std::string& reason) noexcept {
   try {
     spare_.reset();
-    document_["status"] = "failed: " + reason;
-    for (const char* part : {"results", "performance"})
-      if (!document_.contains(part)) document_[part] = nullptr;  // only the first rank has them
-    write_atomically(path_, text());
+    write_atomically(path_, failed_text(reason));
   } catch (const std::exception&) {  // the reason itself is about to be told
   }
 }
@@ -133,13 +143,8 @@ void RunRecord::write(const std::string& status, const Results& results, const P
     document_["status"] = status;
     document_["results"] = results;
     document_["performance"] = performance;
-    write_atomically(path_, text());
+    write_atomically(path_, text_of(document_));
   });
-}
-
-std::string RunRecord::text() const {
-  // A reason may quote a file name in any encoding; it must not cost us the record.
-  return document_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace rhexis::output

@@ -102,13 +102,14 @@ class RunRecord {
   /// Status "failed: `reason`", with what is known so far.
   void fail(const std::string& reason, const Results& results, const Performance& performance);
 
-  /// Status "failed: `reason`" by one rank, which is about to end the program for all. Does not throw.
+  /// The file's text with status "failed: `reason`".
+  std::string failed_text(const std::string& reason) const;
+  /// Writes that, by one rank, which is about to end the program for all. Does not throw.
   void fail_alone(const std::string& reason) noexcept;
 
  private:
   void write(const std::string& status, const Results& results, const Performance& performance);
   void end(const std::string& status, const Results& results, const Performance& performance);
-  std::string text() const;
 
   std::filesystem::path path_;
   nlohmann::ordered_json document_;

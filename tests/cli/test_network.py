@@ -7,9 +7,11 @@ import csv
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 RHEXIS, SOURCE, *MPIRUN = sys.argv[1:]
@@ -370,6 +372,20 @@ class Network(unittest.TestCase):
     def test_restart_is_for_vessels(self):
         self.write("n.toml", TREE)
         self.assert_refused(self.rhexis("run", "n.toml", "--restart", "x.h5"), ["--restart"], "restart", ["n.toml"])
+
+    def test_interrupt_is_recorded(self):
+        self.write("n.toml", tree("generations", "generations = 33"))
+        with subprocess.Popen([RHEXIS, "run", "n.toml", "-o", "out"], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as process:
+            seen = ""
+            while "network" not in seen:  # the header's
+                seen = process.stdout.readline()
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            _, error = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, error)
+        record = self.record("out")
+        self.assertEqual((record["status"], record["input"]["tree"]["generations"]["value"]), ("failed: interrupted", 33))
 
     def test_solver_that_does_not_reach_its_aim_is_status_3(self):
         result = self.rhexis("run", os.path.join(SOURCE, "inputs/circle_of_willis.toml"), "-o", "out", "--set", "insitu.enabled=false",
