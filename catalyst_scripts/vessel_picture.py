@@ -247,11 +247,11 @@ class VesselPicture:
         else:
             bar.SetOrientationToHorizontal()
             bar.SetLabelFormat("%g")
-            bar.SetPosition(0.325, 0.03)
+            bar.SetPosition(0.325, 0.08)  # what is written of values beyond comes below
             bar.SetWidth(0.35)
             bar.SetHeight(0.12)
             bar.SetBarRatio(0.4)
-            text(view, 18, (0.325, 0.17), title)
+            text(view, 18, (0.325, 0.22), title)
         view.AddActor2D(bar)
         return bar
 

@@ -6,6 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -26,6 +27,18 @@ class Afterwards(DriverTest):
         self.assertEqual((result.returncode, complaints(result.stderr)), (0, ""), result.stdout)
         after = read(self.folder / "after" / "network_000050.png")
         self.assertLess((numpy.abs(after - during).max(axis=-1) > 8).mean(), 1e-3)
+
+    def test_the_colour_bar_of_a_long_vessel_says_more(self):
+        synthetic_run.write(self.folder, frames=1, length_m=30e-3)
+        with h5py.File(self.folder / "particles.h5", "a") as file:
+            file["damage/000000"][0] = 1  # beyond the bar
+        scripts = SOURCE / "postprocessing"
+        subprocess.run([scripts / "pvpython_headless", scripts / "render_particles.py", self.folder / "particles.xdmf"],
+                       env=ENVIRONMENT, check=True, stdout=subprocess.DEVNULL, timeout=50)
+        picture = read(self.folder / "images" / "vessel_000000.png")
+        ink = (picture[700:718, 826:882] < 100).all(axis=-1)  # below the right end of the lower bar
+        self.assertGreater(ink.sum(), 40)
+        self.assertLess(ink.mean(), 0.5)
 
     def test_saved_particles_give_pictures_a_movie_and_curves(self):
         scripts = SOURCE / "postprocessing"
