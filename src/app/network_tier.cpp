@@ -41,30 +41,26 @@ void check_size(const Configuration& c, int ranks) {
                    "network.tier");
 }
 
-}  // namespace
-
-std::unique_ptr<NetworkTier> checked_tier(const Configuration& c, parallel::Communicator comm) {
+std::unique_ptr<NetworkTier> made_tier(const Configuration& c, parallel::Communicator comm,
+                                       bool trees_are_built) {
   auto tier = make_tier(c, comm);
   try {
-    if (is_built_tree(c)) {
-      parallel::together<InputError>(comm, [&] { check_size(c, comm.size()); });
-    } else {
-      tier->prepare();
-    }
+    if (is_built_tree(c)) parallel::together<InputError>(comm, [&] { check_size(c, comm.size()); });
+    if (trees_are_built || !is_built_tree(c)) tier->prepare();
   } catch (const InputError& error) {
     throw input::located(error, c.resolved);
   }
   return tier;
 }
 
+}  // namespace
+
+std::unique_ptr<NetworkTier> checked_tier(const Configuration& c, parallel::Communicator comm) {
+  return made_tier(c, comm, false);
+}
+
 std::unique_ptr<NetworkTier> prepared_tier(const Configuration& c, parallel::Communicator comm) {
-  auto tier = checked_tier(c, comm);
-  try {
-    if (is_built_tree(c)) tier->prepare();
-  } catch (const InputError& error) {
-    throw input::located(error, c.resolved);
-  }
-  return tier;
+  return made_tier(c, comm, true);
 }
 
 hemodynamics::TreeBoundary driving_boundary(const Configuration& c, const network::TreePair& tree,
@@ -76,15 +72,13 @@ hemodynamics::TreeBoundary driving_boundary(const Configuration& c, const networ
   return b;
 }
 
-/// Pa; pressures are told from it.
-constexpr double atmosphere = 101325;
-
 void check_flow(NetworkSolution& s, const std::array<double, 2>& driving) {
   if (!std::isfinite(s.inflow))
     throw RunError("the flow of this network cannot be computed: it came out as " + text(s.inflow) + " m3/s");
   const auto [low, high] = driving;
   if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
     s.warnings.push_back("nothing flows: no difference of pressure drives blood through the network");
+  constexpr double atmosphere = 101325;  // Pa; pressures are told from it
   if (s.lowest_pressure < -atmosphere) {
     s.warnings.push_back(fmt::format(
         "the pressure falls to {}, below vacuum at {}: no fluid flows so; check the flows that are given",
