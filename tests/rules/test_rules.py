@@ -1,14 +1,17 @@
-"""Rules that machines keep: who may include whom, where MPI and OpenMP live, no dead links in the docs.
+"""Rules that machines keep: who may include whom, where MPI and OpenMP live, no dead links in the docs, a time limit for every test.
 
-Run by ctest as: test_rules.py SOURCE_DIR
+Run by ctest as: test_rules.py SOURCE_DIR BUILD_DIR CTEST
 """
 
+import json
 import pathlib
 import re
+import subprocess
 import sys
 import unittest
 
 ROOT = pathlib.Path(sys.argv[1])
+BUILD, CTEST = sys.argv[2:4]
 SRC = ROOT / "src"
 
 # Folder -> folders that it may include, besides itself and core.
@@ -65,6 +68,14 @@ class Rules(unittest.TestCase):
         for doc in (ROOT / "README.md", SRC / "README.md", *(ROOT / "docs").glob("*.md")):
             for link in re.findall(r"\]\(([^)#:]+)\)", doc.read_text()):
                 self.assertTrue((doc.parent / link).exists(), f"{doc}: {link}")
+
+    def test_every_test_has_a_time_limit(self):
+        listed = subprocess.run([CTEST, "--show-only=json-v1"], cwd=BUILD, capture_output=True, check=True).stdout
+        tests = json.loads(listed)["tests"]
+        self.assertGreater(len(tests), 90)
+        for test in tests:
+            limits = [p["value"] for p in test["properties"] if p["name"] == "TIMEOUT"]
+            self.assertTrue(limits and 0 < limits[0] <= 900, f"{test['name']}: add it by rhexis_add_test")
 
 
 if __name__ == "__main__":
