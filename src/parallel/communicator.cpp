@@ -44,6 +44,9 @@ void share_cores() {
 }  // namespace
 
 Session::Session(int& argc, char**& argv) {
+  // Otherwise Open MPI 5 reports "Unable to find reachable pairing" on a host with IPv4 and IPv6 addresses
+  // (open-mpi/ompi issue 14079), though the ranks reach each other. A setting of the user's stays.
+  setenv("OMPI_MCA_reachable", "weighted", 0);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   if (std::getenv("OMP_NUM_THREADS") == nullptr) share_cores();
