@@ -43,6 +43,8 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
       ->check(not_empty);
   run->add_option("--restart", command.restart, "Go on from a checkpoint of an earlier run")
       ->check(not_empty);
+  run->add_flag("--overwrite", command.overwrite,
+                "Replace files in the folder for results that no run made (never one that this run reads)");
   run->add_flag("--quiet", command.quiet, "Print errors only");
   keys->add_option("SECTION", command.section, "One section, or one key (section.key)");
 
@@ -76,6 +78,7 @@ int carry_out(const Command& command, parallel::Communicator comm) {
                           ? std::filesystem::path("results") / std::filesystem::path(command.file).stem()
                           : std::filesystem::path(command.directory);
   options.restart = command.restart;
+  options.overwrite = command.overwrite;
   options.quiet = command.quiet;
   options.command = command.arguments;
   options.started = started;

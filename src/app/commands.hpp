@@ -17,6 +17,7 @@ struct Command {
   std::string directory;               ///< of -o; empty: results/<name of the input file>
   std::string restart;                 ///< checkpoint
   std::string section;                 ///< of `keys`
+  bool overwrite = false;
   bool quiet = false;
   std::vector<std::string> arguments;  ///< all, the program's name first
   int status = 0;                      ///< exit status where there is nothing to do (help, a wrong call)

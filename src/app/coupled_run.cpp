@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "app/folder_plan.hpp"
 #include "app/network_coupling.hpp"
 #include "app/network_files.hpp"
 #include "app/network_tables.hpp"
@@ -32,14 +33,14 @@ class CascadeRun : private RunBase {
     const std::vector<std::string> warnings = std::exchange(c_.warnings, {});
     const Configuration first = c_;
     say_title(console_, c_);
+    open_folder();
     std::optional<NetworkCoupling> next;
     next.emplace(c_, comm_, console_);
     if (!next->at_rest()) c_ = next->hand_over();
     const Ending ending = recorded([&] {
-      open_directory(output::EarlierResults::remove);
+      start_insitu();
       open_record();
       for (const std::string& warning : warnings) warn(warning);
-      start_insitu();
       results_.cascade = nlohmann::ordered_json::array();
       Ending last = Ending::completed;
       std::string obstacle;  // to the next event
@@ -68,7 +69,7 @@ class CascadeRun : private RunBase {
         }
       }
       results_.network = next->network_results();
-      next->write(options_.directory);
+      next->write(*folder_);
       finish_insitu();
       make_movie();
       if (!obstacle.empty()) throw RunError(obstacle);
@@ -87,7 +88,8 @@ class CascadeRun : private RunBase {
     const QueriedVessel vessel = coupling.vessel();
     console_.line(fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, coupling.risk()));
     RunOptions options = options_;
-    options.directory = options_.directory / fmt::format("event_{:02d}", number);
+    options.folder = folder_->subfolder(fmt::format("event_{:02d}", number));
+    options.directory = options.folder->path();
     options.started = seconds_now();
     options.pictures = pictures_;
     coupling.set_event(number);
@@ -138,6 +140,7 @@ class CascadeRun : private RunBase {
 
   /// Of the record: one row for each event.
   void write_table() {
+    const std::filesystem::path path = folder_->claim("cascade.csv");
     parallel::on_root<RunError>(comm_, [&] {
       const auto columns = {"event",
                             "time_s",
@@ -165,7 +168,7 @@ class CascadeRun : private RunBase {
         }
         table += fmt::format("{}\n", fmt::join(row, ","));
       }
-      output::write_atomically(options_.directory / "cascade.csv", table);
+      output::write_atomically(path, table);
     });
   }
 
@@ -199,9 +202,11 @@ Ending run_coupled(Configuration configuration, const RunOptions& options, paral
     throw InputError("--restart: checkpoints do not hold the state of two-way coupling");
   Console console(comm.is_root(), options.quiet);
   say_title(console, configuration);
+  RunOptions with_folder = options;
+  with_folder.folder.emplace(folder_plan(configuration, options), comm);
   NetworkCoupling coupling(configuration, comm, console);
   const Configuration& with_vessel = coupling.hand_over();
-  return VesselRun(with_vessel, options, comm, &coupling).run();
+  return VesselRun(with_vessel, with_folder, comm, &coupling).run();
 }
 
 }  // namespace rhexis::app

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/folder_plan.hpp"
 #include "app/interrupt.hpp"
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
@@ -38,6 +39,12 @@ bool only_chooses_samples(const std::string& key) {
   return std::find(free.begin(), free.end(), key) != free.end();
 }
 
+std::string table_of(const std::vector<Sample>& samples) {
+  std::string text = ensemble::sample_header;
+  for (const Sample& s : samples) text += ensemble::row(s);
+  return text;
+}
+
 }  // namespace
 
 EnsembleRun::EnsembleRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
@@ -51,6 +58,9 @@ EnsembleRun::EnsembleRun(Configuration configuration, RunOptions options, parall
 
 Ending EnsembleRun::run() {
   read_earlier();
+  output::FolderPlan folder = folder_plan(c_, options_);
+  if (earlier_ > 0) folder.earlier = output::EarlierResults::keep;
+  open_folder(std::move(folder));
   plan();
   const Ending ending = recorded([&] {
     open_results();
@@ -100,16 +110,9 @@ void EnsembleRun::plan() {
 }
 
 void EnsembleRun::open_results() {
-  open_directory(earlier_ > 0 ? output::EarlierResults::keep : output::EarlierResults::remove);
   open_record();
-  const std::filesystem::path path = options_.directory / "samples.csv";
-  parallel::on_root<RunError>(comm_, [&] {
-    std::string text = ensemble::sample_header;
-    for (const Sample& s : samples_) text += ensemble::row(s);
-    output::write_atomically(path, text);
-    table_.open(path, std::ios::binary | std::ios::app);
-    if (!table_) output::cannot_write(path);
-  });
+  const std::filesystem::path path = folder_->claim("samples.csv");
+  parallel::on_root<RunError>(comm_, [&] { table_ = output::TableFile(path, table_of(samples_)); });
 }
 
 void EnsembleRun::say_header() {
@@ -195,8 +198,9 @@ void EnsembleRun::keep(const std::vector<Sample>& finished) {
   const Stopwatch watch(spent_.output);
   samples_.insert(samples_.end(), finished.begin(), finished.end());
   parallel::on_root<RunError>(comm_, [&] {
-    for (const Sample& s : finished) table_ << ensemble::row(s);
-    if (!(table_ << std::flush)) output::cannot_write(options_.directory / "samples.csv");
+    std::string rows;
+    for (const Sample& s : finished) rows += ensemble::row(s);
+    table_.append(rows);
   });
 }
 
@@ -207,13 +211,11 @@ void EnsembleRun::finish() {
   probabilities_ = ensemble::probabilities(samples_);
   {
     const Stopwatch watch(spent_.output);
+    const std::filesystem::path samples = folder_->claim("samples.csv"),
+                                probability = folder_->claim("probability.csv");
     parallel::on_root<RunError>(comm_, [&] {
-      table_.close();
-      std::string text = ensemble::sample_header;
-      for (const Sample& s : samples_) text += ensemble::row(s);
-      output::write_atomically(options_.directory / "samples.csv", text);
-      output::write_atomically(options_.directory / "probability.csv",
-                               ensemble::probability_table(probabilities_));
+      output::write_atomically(samples, table_of(samples_));
+      output::write_atomically(probability, ensemble::probability_table(probabilities_));
     });
   }
   const double sample_s = comm_.all_reduce(sample_s_, parallel::Reduce::sum);

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <utility>
 #include <vector>
 
 #include "app/run_base.hpp"
 #include "ensemble/probability.hpp"
 #include "ensemble/sample.hpp"
+#include "output/atomic_file.hpp"
 
 namespace rhexis::app {
 
@@ -39,7 +39,7 @@ class EnsembleRun : private RunBase {
   std::vector<ensemble::Sample> samples_;  ///< all that are known, on every rank
   std::vector<Task> tasks_;                ///< samples to do
   std::vector<ensemble::Probability> probabilities_;
-  std::ofstream table_;
+  output::TableFile table_;
   bool interrupted_ = false;
   std::size_t earlier_ = 0;  ///< samples that an earlier run had done
   double sample_s_ = 0;      ///< spent in samples by this rank

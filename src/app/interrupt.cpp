@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "output/temporary_file.hpp"
+
 namespace rhexis::app {
 namespace {
 
@@ -19,7 +21,7 @@ extern "C" void note_interrupt(int signal) {
 
 /// Made beforehand, because a handler may neither allocate nor format.
 struct {
-  std::string file, part, text;
+  std::string file, temporary, text;
 } last_words;
 
 void write_all(int file, std::string_view text) {
@@ -31,11 +33,11 @@ void write_all(int file, std::string_view text) {
 }
 
 extern "C" void say_last_words(int) {
-  const int file = open(last_words.part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int file = open(last_words.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file >= 0) {
     write_all(file, last_words.text);
     close(file);
-    rename(last_words.part.c_str(), last_words.file.c_str());
+    rename(last_words.temporary.c_str(), last_words.file.c_str());
   }
   write_all(STDERR_FILENO, "rhexis: interrupted\n");
   _exit(130);
@@ -49,7 +51,7 @@ void catch_signals(void (*handler)(int)) {
 }  // namespace
 
 LastWords::LastWords(const std::filesystem::path& file, std::string text) {
-  last_words = {file.string(), file.string() + ".part", std::move(text)};
+  last_words = {file.string(), output::temporary_name_beside(file).string(), std::move(text)};
   catch_signals(say_last_words);
 }
 

@@ -69,7 +69,7 @@ std::string make_movie(const std::filesystem::path& images, const std::filesyste
   command.insert(
       command.end(),
       {"-filter_complex", fmt::format("concat=n={},pad=ceil(iw/2)*2:ceil(ih/2)*2", series.digits.size()),
-       "-c:v", "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", movie.string()});
+       "-c:v", "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-f", "mp4", movie.string()});
   const int status = run_program(std::move(command));
   if (status == 127 || status == -1) return "ffmpeg could not be started; is it installed?";
   if (status != 0) return fmt::format("ffmpeg failed with status {}", status);

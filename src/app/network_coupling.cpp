@@ -13,7 +13,6 @@
 #include "coupling/bleeding.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/viscosity.hpp"
-#include "output/atomic_file.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/opening.hpp"
 
@@ -185,18 +184,15 @@ std::vector<double> NetworkCoupling::profile(std::int64_t rows, double row_spaci
   return coupling::axial_profile(load_, data_, piece_, rows, row_spacing);
 }
 
-void NetworkCoupling::write(const std::filesystem::path& directory) {
-  write_network(c_, solution_, directory, comm_);
+void NetworkCoupling::write(const output::ResultsFolder& folder) {
+  write_network(c_, solution_, folder, comm_);
 }
 
-void NetworkCoupling::open(const std::filesystem::path& directory) {
-  write(directory);
+void NetworkCoupling::open(const output::ResultsFolder& folder) {
+  write(folder);
   if (!two_way()) return;
-  table_path_ = directory / "coupling.csv";
-  parallel::on_root<RunError>(comm_, [&] {
-    table_.open(table_path_);
-    if (!(table_ << table_header << std::flush)) output::cannot_write(table_path_);
-  });
+  const std::filesystem::path path = folder.claim("coupling.csv");
+  parallel::on_root<RunError>(comm_, [&] { table_ = output::TableFile(path, table_header); });
 }
 
 void NetworkCoupling::exchange(const Wall& wall) {
@@ -220,12 +216,10 @@ void NetworkCoupling::exchange(const Wall& wall) {
     for (double& p : load_.pressure) p = std::max(p, 0.0);
     worst_imbalance_ = std::max(worst_imbalance_, now.imbalance());
     ++windows_;
-    table_ << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", wall.time_s, wall.schedule,
+    table_.append(fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", wall.time_s, wall.schedule,
                           wall.schedule * load_.pressure[0], wall.schedule * load_.pressure[1],
                           wall.schedule * load_.pressure[2], wall.opening, leak_, wall.schedule * now.inflow,
-                          wall.schedule * now.outflow, wall.resistance_factor, now.imbalance())
-           << std::flush;
-    if (!table_) output::cannot_write(table_path_);
+                          wall.schedule * now.outflow, wall.resistance_factor, now.imbalance()));
   });
   double values[] = {load_.pressure[0], load_.pressure[1], load_.pressure[2], leak_, highest_reynolds_};
   if (!comm_.is_root()) std::fill(std::begin(values), std::end(values), 0.0);

@@ -2,8 +2,6 @@
 /// lumen and its leak.
 #pragma once
 
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -12,6 +10,8 @@
 #include "app/network_tier.hpp"
 #include "coupling/hand_over.hpp"
 #include "coupling/net_pressure.hpp"
+#include "output/atomic_file.hpp"
+#include "output/results_folder.hpp"
 #include "output/run_record.hpp"
 
 namespace rhexis::app {
@@ -37,9 +37,9 @@ class NetworkCoupling {
 
   bool two_way() const { return c_.coupling.mode == "two_way"; }
   /// Writes the network's files.
-  void write(const std::filesystem::path& directory);
+  void write(const output::ResultsFolder& folder);
   /// The same, and begins coupling.csv where coupling is two-way.
-  void open(const std::filesystem::path& directory);
+  void open(const output::ResultsFolder& folder);
 
   /// Largest net pressure on the simulated wall by the last exchange, Pa; `profile` is relative to it.
   double pressure() const { return coupling::largest_load(load_, data_, piece_); }
@@ -97,8 +97,7 @@ class NetworkCoupling {
   double leak_ = 0, leaked_ = 0, last_time_ = 0;  ///< m3/s, m3, s
   double worst_imbalance_ = 0, schedule_ = 1, highest_reynolds_ = 0;
   double network_s_ = 0, exchange_s_ = 0;
-  std::filesystem::path table_path_;
-  std::ofstream table_;
+  output::TableFile table_;
 };
 
 }  // namespace rhexis::app

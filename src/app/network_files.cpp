@@ -5,30 +5,35 @@
 #include "network/vtp_network.hpp"
 #include "output/atomic_file.hpp"
 #include "output/line_series.hpp"
+#include "output/temporary_file.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::app {
 namespace {
 
-void write_tables(const NetworkSolution& solution, const std::filesystem::path& directory,
+void write_tables(const NetworkSolution& solution, const output::ResultsFolder& folder,
                   parallel::Communicator comm) {
-  parallel::on_root<RunError>(comm, [&] {
+  parallel::together(comm, [&] {
+    if (!comm.is_root()) return;
+    const auto write = [&](const char* name, const std::string& table) {
+      output::write_atomically(folder.claim_on_root(name), table);
+    };
     if (solution.statistics) {
-      output::write_atomically(directory / "generations.csv", generation_table(*solution.statistics));
-      output::write_atomically(directory / "histograms.csv", histogram_table(*solution.statistics));
+      write("generations.csv", generation_table(*solution.statistics));
+      write("histograms.csv", histogram_table(*solution.statistics));
     }
     if (solution.screening) {
-      output::write_atomically(directory / "screening.csv", screening_table(solution));
-      output::write_atomically(directory / "risk_histograms.csv", risk_table(*solution.screening));
+      write("screening.csv", screening_table(solution));
+      write("risk_histograms.csv", risk_table(*solution.screening));
     }
     if (!solution.table.empty()) {
-      output::write_atomically(directory / "vessels.csv", vessel_table(solution.table));
+      write("vessels.csv", vessel_table(solution.table));
     }
   });
 }
 
 /// The first rank's lines, which are all but of a distributed network.
-void write_vtp(hemodynamics::VesselLines& lines, const std::filesystem::path& directory) {
+void write_vtp(hemodynamics::VesselLines& lines, const output::ResultsFolder& folder) {
   const auto values = [&](const char* name) {
     const FieldView view = lines.field(name);
     return std::span<const double>(view.component[0], view.count);
@@ -58,10 +63,12 @@ void write_vtp(hemodynamics::VesselLines& lines, const std::filesystem::path& di
   for (const char* name : {"flow", "wall_shear_stress", "hoop_strain", "haematocrit", "vessel"}) {
     cells.push_back({name, values(name)});
   }
-  network::write_vtp_network(directory / "network.vtp", graph, points, cells);
+  output::TemporaryFile file(folder.claim_on_root("network.vtp"));
+  network::write_vtp_network(file.name(), graph, points, cells);
+  file.put_in_place();
 }
 
-void write_lines(const Configuration& c, NetworkSolution& solution, const std::filesystem::path& directory,
+void write_lines(const Configuration& c, NetworkSolution& solution, const output::ResultsFolder& folder,
                  parallel::Communicator comm) {
   if (comm.all_reduce(static_cast<std::int64_t>(solution.lines.count()), parallel::Reduce::sum) == 0) return;
   solution.lines.annotate({{"vessels", "1", static_cast<double>(solution.vessels)},
@@ -69,22 +76,26 @@ void write_lines(const Configuration& c, NetworkSolution& solution, const std::f
                            {"inflow", "m3/s", solution.inflow}});
   const auto fields = solution.lines.fields();
   output::LineSeriesPlan plan;
-  plan.directory = directory;
+  for (const char* name : {"network.h5", "network.xdmf"}) folder.claim(name);
+  plan.directory = folder.path();
   plan.title = c.title;
   plan.version = version();
   plan.fields.assign(fields.begin(), fields.end());
   plan.steps = {0};
   plan.precision = output::Precision::double_precision;
   output::LineSeries(plan, solution.lines, comm).write(solution.lines);
-  if (c.network.vtp) parallel::on_root<RunError>(comm, [&] { write_vtp(solution.lines, directory); });
+  if (!c.network.vtp) return;
+  parallel::together(comm, [&] {
+    if (comm.is_root()) write_vtp(solution.lines, folder);
+  });
 }
 
 }  // namespace
 
-void write_network(const Configuration& c, NetworkSolution& solution, const std::filesystem::path& directory,
+void write_network(const Configuration& c, NetworkSolution& solution, const output::ResultsFolder& folder,
                    parallel::Communicator comm) {
-  write_tables(solution, directory, comm);
-  write_lines(c, solution, directory, comm);
+  write_tables(solution, folder, comm);
+  write_lines(c, solution, folder, comm);
 }
 
 nlohmann::ordered_json to_json(const QueriedVessel& q) {

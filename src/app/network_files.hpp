@@ -1,16 +1,15 @@
 /// What a solved network leaves in the folder of results.
 #pragma once
 
-#include <filesystem>
-
 #include "app/network_tier.hpp"
+#include "output/results_folder.hpp"
 #include "output/run_record.hpp"
 
 namespace rhexis::app {
 
 /// generations.csv, histograms.csv, screening.csv, risk_histograms.csv, vessels.csv (what there is of them),
-/// network.xdmf and .h5, network.vtp. Collective. Throws RunError.
-void write_network(const Configuration& c, NetworkSolution& solution, const std::filesystem::path& directory,
+/// network.xdmf and .h5, network.vtp. Collective. Throws InputError (a file in the way) and RunError.
+void write_network(const Configuration& c, NetworkSolution& solution, const output::ResultsFolder& folder,
                    parallel::Communicator comm);
 
 /// As in run.json.

@@ -17,18 +17,18 @@ NetworkRun::NetworkRun(Configuration configuration, RunOptions options, parallel
 }
 
 Ending NetworkRun::run() {
+  open_folder();
   tier_ = prepared_tier(c_, comm_);
   const Ending ending = recorded([&] {
-    open_directory(output::EarlierResults::remove);
-    open_record();
     start_insitu();
+    open_record();
     say_header();
     std::optional<LastWords> words;
-    if (comm_.is_root()) words.emplace(options_.directory / "run.json", record_->failed_text("interrupted"));
+    if (comm_.is_root()) words.emplace(folder_->path() / "run.json", record_->failed_text("interrupted"));
     solve();
     {
       const Stopwatch watch(spent_.output);
-      write_network(c_, solution_, options_.directory, comm_);
+      write_network(c_, solution_, *folder_, comm_);
     }
     draw();
     return false;

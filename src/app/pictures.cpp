@@ -23,6 +23,8 @@ Pictures start_pictures(const insitu::Parameters& parameters, const std::filesys
     return {.pipeline = std::move(pipeline), .description = std::move(description)};
   } catch (const insitu::NotAvailable& reason) {
     return {.pipeline = nullptr, .description = std::string("off: ") + reason.what()};
+  } catch (const RunError& bad_script) {
+    throw InputError(bad_script.what());
   }
 }
 

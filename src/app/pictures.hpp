@@ -19,7 +19,7 @@ struct Pictures {
   double seconds_before = 0;
 };
 
-/// Collective. Throws RunError for a bad script.
+/// Collective. Throws InputError for a bad script.
 Pictures start_pictures(const insitu::Parameters& parameters, const std::filesystem::path& results,
                         parallel::Communicator comm);
 

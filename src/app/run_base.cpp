@@ -6,12 +6,15 @@
 #include <cmath>
 #include <ctime>
 
+#include "app/folder_plan.hpp"
 #include "app/movie.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "output/temporary_file.hpp"
 #include "parallel/link.hpp"
+#include "parallel/together.hpp"
 #include "peridynamics/bond_kernel.hpp"
 
 namespace rhexis::app {
@@ -23,8 +26,13 @@ RunBase::RunBase(Configuration configuration, RunOptions options, parallel::Comm
       console_(comm.is_root(), options_.quiet),
       started_(options_.started) {}
 
-void RunBase::open_directory(output::EarlierResults earlier) {
-  directory_held_ = output::prepare_directory(options_.directory, earlier, comm_);
+void RunBase::open_folder(output::FolderPlan plan) {
+  folder_ = options_.folder;
+  if (!folder_) folder_.emplace(plan, comm_);
+}
+
+void RunBase::open_folder() {
+  open_folder(folder_plan(c_, options_));
 }
 
 void RunBase::open_record(std::optional<std::int64_t> first_step) {
@@ -38,7 +46,8 @@ void RunBase::open_record(std::optional<std::int64_t> first_step) {
       .first_step = first_step,
       .input = c_.record};
   if (first_step) provenance.checkpoint = options_.restart.string();
-  record_.emplace(options_.directory / "run.json", provenance, comm_);
+  folder_->remove_earlier_results();
+  record_.emplace(folder_->claim("run.json"), provenance, comm_);
 }
 
 void RunBase::warn(const std::string& text) {
@@ -96,10 +105,14 @@ void RunBase::make_movie() {
   if (!pictures_->pipeline || options_.pictures || !c_.output.movie) return;
   const Stopwatch watch(spent_.insitu);
   std::string problem;
-  if (comm_.is_root()) {
-    problem = app::make_movie(options_.directory / "images", options_.directory / "movie.mp4",
-                              c_.output.frames_per_second);
-  }
+  parallel::together(comm_, [&] {
+    if (!comm_.is_root()) return;
+    output::TemporaryFile movie(folder_->path() / "movie.mp4");
+    problem = app::make_movie(folder_->path() / "images", movie.name(), c_.output.frames_per_second);
+    if (!problem.empty()) return;
+    folder_->claim_on_root("movie.mp4");
+    movie.put_in_place();
+  });
   if (!problem.empty()) warn("no movie: " + problem);
 }
 

@@ -11,8 +11,8 @@
 #include "app/console.hpp"
 #include "app/pictures.hpp"
 #include "app/run_options.hpp"
-#include "output/directory.hpp"
 #include "output/machine.hpp"
+#include "output/results_folder.hpp"
 #include "output/run_record.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/halo.hpp"
@@ -38,14 +38,17 @@ class RunBase {
   RunBase(Configuration configuration, RunOptions options, parallel::Communicator comm);
   ~RunBase() = default;
 
-  /// Makes the folder of results ready; `open_record` begins run.json in it.
-  void open_directory(output::EarlierResults earlier);
+  /// Takes the folder of results for this run, which changes nothing in it but for new folders: first of all,
+  /// so that nothing is computed in vain. Throws InputError.
+  void open_folder(output::FolderPlan plan);
+  void open_folder();
+  /// The results of earlier runs go, and run.json begins: once all that may be wrong with the input is known.
   /// `first_step` is that of options_.restart.
   void open_record(std::optional<std::int64_t> first_step = {});
   /// Does `work`, which returns whether an interrupt ended it, and tells run.json how it ended. What is found
   /// to be wrong with the input once run.json has begun is a failure of the run.
   Ending recorded(const std::function<bool()>& work);
-  /// Starts ParaView, or settles why there will be no pictures. Collective. Throws RunError for a bad script.
+  /// Starts ParaView, or settles why there will be no pictures. Collective. Throws InputError for a bad script.
   void start_insitu();
   /// Ends ParaView, unless other runs still need it.
   void finish_insitu();
@@ -70,8 +73,8 @@ class RunBase {
   void say_cost(const output::Performance& p);
 
   Configuration c_;
-  std::shared_ptr<const void> directory_held_;  ///< for this run alone
   RunOptions options_;
+  std::optional<output::ResultsFolder> folder_;
   parallel::Communicator comm_;
   Console console_;
   std::optional<output::RunRecord> record_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/folder_plan.hpp"
 #include "app/stopwatch.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
@@ -59,7 +60,7 @@ void VesselRun::write_checkpoint(long step) {
   if (!c_.coupling.restartable()) return;  // asked for by an interrupt
   const Stopwatch watch(spent_.output);
   const peridynamics::Body::Saved saved = body_->save();
-  const auto path = options_.directory / "checkpoints" / fmt::format("step_{:06d}.h5", step);
+  const std::filesystem::path path = folder_->claim(checkpoint_name(step));
   output::CheckpointWriter file(path, comm_);
   file.write("step", std::int64_t{step});
   file.write("input", c_.record.dump());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/folder_plan.hpp"
 #include "app/interrupt.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
@@ -38,11 +39,12 @@ double VesselRun::pressure_at(long step) const {
 }
 
 Ending VesselRun::run() {
+  open_folder();
   build();
   if (!options_.restart.empty()) read_checkpoint();
   const Ending ending = recorded([&] {
-    open_results();
     start_insitu();
+    open_results();
     say_header();
     if (c_.vessel.equilibrium_pressure > 0 && options_.restart.empty()) start_at_equilibrium();
     time_loop();
@@ -85,20 +87,21 @@ void VesselRun::build() {
 
 void VesselRun::open_results() {
   const bool restarts = !options_.restart.empty();
-  open_directory(restarts ? output::EarlierResults::keep : output::EarlierResults::remove);
+  if (restarts) folder_->will_write(files_of_steps(c_, first_step_, restarts));
+  open_record(restarts ? std::optional<std::int64_t>(first_step_) : std::nullopt);
+  const std::filesystem::path history = folder_->claim("history.csv");
   if (restarts) {
     // The first moment is observed anew, so the row that the earlier run may have left of it goes.
-    history_.emplace(options_.directory / "history.csv", comm_, first_step_ - 1);
+    history_.emplace(history, comm_, first_step_ - 1);
   } else {
-    history_.emplace(options_.directory / "history.csv", comm_);
+    history_.emplace(history, comm_);
   }
-  open_record(restarts ? std::optional<std::int64_t>(first_step_) : std::nullopt);
-  if (coupling_ != nullptr) coupling_->open(options_.directory);
+  if (coupling_ != nullptr) coupling_->open(*folder_);
   if (c_.output.fields.empty()) return;
   output::PointSeriesPlan plan;
-  plan.directory = options_.directory;
-  // A restart leaves the series of the run that it continues as it is.
-  if (restarts) plan.basename = fmt::format("particles_from_{:06d}", first_step_);
+  plan.directory = folder_->path();
+  plan.basename = series_name(first_step_, restarts);
+  for (const char* ending : {".h5", ".xdmf"}) folder_->claim(plan.basename + ending);
   plan.title = c_.title;
   plan.version = version();
   plan.precision = c_.output.precision == "double" ? output::Precision::double_precision

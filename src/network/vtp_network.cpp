@@ -99,15 +99,9 @@ void write_vtp_network(const std::filesystem::path& path, const Graph& graph,
     add(lines.point_arrays, name, values, graph.junctions, path);
   for (const auto& [name, values] : cell_arrays) add(lines.cell_arrays, name, values, graph.vessels(), path);
   auto* write = plugin_function<vtp::Write, RunError>(vtp::write_symbol, path, "writing");
-  const std::filesystem::path unfinished = path.string() + ".part";
   std::string error;
-  write(unfinished.string(), lines, error);
-  std::error_code failure;
-  if (error.empty()) std::filesystem::rename(unfinished, path, failure);
-  if (failure) error = failure.message();
-  if (error.empty()) return;
-  std::filesystem::remove(unfinished, failure);
-  throw RunError(path.string() + ": cannot be written: " + error);
+  write(path.string(), lines, error);
+  if (!error.empty()) throw RunError(path.string() + ": cannot be written: " + error);
 }
 
 }  // namespace rhexis::network

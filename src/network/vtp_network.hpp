@@ -39,7 +39,7 @@ struct NamedArray {
 
 /// Writes the graph in metres, each vessel a line of two points, with the arrays that `read_vtp_network`
 /// knows (but conditions, which can be among `point_arrays`) and those given: one value a junction, one a
-/// vessel. The file appears when it is complete. Throws RunError.
+/// vessel. Throws RunError.
 void write_vtp_network(const std::filesystem::path& path, const Graph& graph,
                        std::span<const NamedArray> point_arrays, std::span<const NamedArray> cell_arrays);
 

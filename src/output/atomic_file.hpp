@@ -1,4 +1,4 @@
-/// Small text files that are never seen half written.
+/// Small text files that are never seen half written, and tables that grow by whole rows.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,23 @@ namespace rhexis::output {
 /// and the reason; the old file then stays. Local to the calling rank.
 void write_atomically(const std::filesystem::path& path, std::string_view text);
 
-/// After a stream failed: throws RunError that names the file and what `errno` says.
-[[noreturn]] void cannot_write(const std::filesystem::path& path);
+/// A text file to which rows are added at its end, each handed to the system at once. Local to the calling
+/// rank. Throws RunError that names the file and the reason (disk full).
+class TableFile {
+ public:
+  TableFile() = default;  ///< no file
+  /// Replaces the file `path` by `text`, as write_atomically does.
+  TableFile(std::filesystem::path path, std::string_view text);
+  TableFile(TableFile&& other) noexcept;
+  TableFile& operator=(TableFile&& other) noexcept;
+  ~TableFile();
+
+  /// Adds `rows`, whole lines. What the disk has no room for leaves no part of a row behind.
+  void append(std::string_view rows);
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
 
 }  // namespace rhexis::output

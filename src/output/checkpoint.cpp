@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "output/disk_space.hpp"
 #include "output/hdf5_file.hpp"
+#include "output/temporary_file.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::output {
@@ -52,17 +53,20 @@ void read_array(const Hdf5File& file, const parallel::Communicator& communicator
 }  // namespace
 
 CheckpointWriter::CheckpointWriter(std::filesystem::path path, parallel::Communicator communicator)
-    : path_(std::move(path)), temporary_(path_.string() + ".part"), communicator_(communicator) {
+    : path_(std::move(path)), communicator_(communicator) {
+  std::string name;
+  parallel::on_root<RunError>(communicator_, [&] {
+    file_ = std::make_unique<TemporaryFile>(path_);
+    name = file_->name().string();
+  });
+  temporary_ = communicator_.broadcast(name);
   parallel::on_root<RunError>(communicator_, [&] {
     change_structure(temporary_, Hdf5File::Mode::create, 0,
                      [](Hdf5File& file) { file.write_text("/", format_attribute, format_text); });
   });
 }
 
-CheckpointWriter::~CheckpointWriter() {
-  std::error_code ignored;
-  if (communicator_.is_root()) std::filesystem::remove(temporary_, ignored);
-}
+CheckpointWriter::~CheckpointWriter() = default;
 
 void CheckpointWriter::write(const std::string& name, const PointLayout& layout,
                              std::span<const double> values) {
@@ -92,7 +96,7 @@ void CheckpointWriter::write(const std::string& name, const std::string& text) {
 
 void CheckpointWriter::close() {
   parallel::together<RunError>(communicator_, [&] { sync_to_disk(temporary_); });
-  parallel::on_root<RunError>(communicator_, [&] { std::filesystem::rename(temporary_, path_); });
+  parallel::on_root<RunError>(communicator_, [&] { file_->put_in_place(); });
 }
 
 void CheckpointWriter::lay_out(const std::function<void(Hdf5File&)>& change) {

@@ -19,6 +19,7 @@ namespace rhexis::output {
 
 class Hdf5File;
 struct Slab;
+class TemporaryFile;
 
 /// This rank's part of a table of `rows` x `words` 16-bit words (the bits of the bonds: a row per bond of a
 /// column's family, a word per 16 particles along the axis), row by row. Parts of ranks do not overlap.
@@ -31,8 +32,8 @@ struct WordBlock {
 };
 
 /// Writes a checkpoint. Every call is collective and throws RunError on all ranks if it fails on any. The
-/// file has its name only once `close` has succeeded: until then it is `<path>.part`, which goes with the
-/// writer.
+/// file has its name only once `close` has succeeded: until then it is a temporary one (temporary_file.hpp),
+/// which goes with the writer.
 class CheckpointWriter {
  public:
   CheckpointWriter(std::filesystem::path path, parallel::Communicator communicator);
@@ -54,6 +55,7 @@ class CheckpointWriter {
                    const Slab& slab, const void* values);
 
   std::filesystem::path path_, temporary_;
+  std::unique_ptr<TemporaryFile> file_;  ///< of the root
   parallel::Communicator communicator_;
 };
 

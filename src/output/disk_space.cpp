@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "output/temporary_file.hpp"
 
 namespace rhexis::output {
 namespace {
@@ -44,11 +45,12 @@ void reserve_space(const std::filesystem::path& path, std::span<const ByteRange>
 }
 
 SpareSpace::SpareSpace(const std::filesystem::path& beside, std::int64_t bytes) {
-  const std::string name = beside.string() + ".spare";
-  descriptor_ = open(name.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  {
+    // Without a name, the space is free again as soon as it is closed, however the program ends.
+    const TemporaryFile unnamed(beside);
+    descriptor_ = open(unnamed.name().c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC);
+  }
   if (descriptor_ < 0) fail(beside, "create the file", errno);
-  // Without a name, the space is free again as soon as it is closed, however the program ends.
-  unlink(name.c_str());
   const int error = posix_fallocate(descriptor_, 0, bytes);
   if (error == 0) return;
   ::close(descriptor_);

@@ -10,6 +10,7 @@
 #include "output/atomic_file.hpp"
 #include "output/disk_space.hpp"
 #include "output/hdf5_file.hpp"
+#include "output/temporary_file.hpp"
 #include "parallel/threads.hpp"
 #include "parallel/together.hpp"
 
@@ -64,9 +65,11 @@ FieldSeries::FieldSeries(const SeriesPlan& plan, const SeriesLayout& layout, std
   const std::filesystem::path path = plan.directory / hdf5_name_;
   parallel::on_root<RunError>(communicator_, [&] {
     const std::size_t datasets = fields_.size() * (planned_places_.size() + 1) + fixed.size();
-    change_structure(path, Hdf5File::Mode::create, datasets,
-                     [&](Hdf5File& file) { lay_out(file, plan, fixed); });
-    sync_to_disk(path);
+    TemporaryFile file(path);
+    change_structure(file.name(), Hdf5File::Mode::create, datasets,
+                     [&](Hdf5File& laid_out) { lay_out(laid_out, plan, fixed); });
+    sync_to_disk(file.name());
+    file.put_in_place();
   });
   parallel::together<RunError>(communicator_, [&] {
     file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::modify, communicator_);

@@ -2,14 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/text_file.hpp"
-#include "output/atomic_file.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::output {
@@ -64,18 +61,11 @@ History::History(std::filesystem::path path, parallel::Communicator communicator
 }
 
 void History::start_with(const std::string& text) {
-  parallel::on_root<RunError>(communicator_, [&] {
-    write_atomically(path_, text);
-    file_.open(path_, std::ios::binary | std::ios::app);
-    if (!file_) throw RunError(fmt::format("{}: cannot open: {}", path_.string(), std::strerror(errno)));
-  });
+  parallel::on_root<RunError>(communicator_, [&] { file_ = TableFile(path_, text); });
 }
 
 void History::append(const HistoryRow& row) {
-  parallel::on_root<RunError>(communicator_, [&] {
-    file_ << line_of(row) << std::flush;
-    if (!file_) throw RunError(fmt::format("{}: cannot add a row: {}", path_.string(), std::strerror(errno)));
-  });
+  parallel::on_root<RunError>(communicator_, [&] { file_.append(line_of(row)); });
 }
 
 }  // namespace rhexis::output

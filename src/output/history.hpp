@@ -2,10 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 
+#include "output/atomic_file.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::output {
@@ -47,7 +47,7 @@ class History {
 
   std::filesystem::path path_;
   parallel::Communicator communicator_;
-  std::ofstream file_;
+  TableFile file_;
 };
 
 }  // namespace rhexis::output

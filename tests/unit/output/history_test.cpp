@@ -79,7 +79,7 @@ TEST(History, AFolderThatIsNotThereIsARunErrorOnAllRanks) {
   const test::TemporaryDirectory directory;
   const std::string message =
       test::message_of<RunError>([&] { History(directory / "no/history.csv", world); });
-  EXPECT_NE(message.find("no/history.csv: cannot write the file: No such file"), std::string::npos)
+  EXPECT_NE(message.find("no/history.csv: cannot create the file: No such file"), std::string::npos)
       << message;
 }
 

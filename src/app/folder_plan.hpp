@@ -1,0 +1,23 @@
+/// What a run reads and what it writes to its folder, known from its configuration.
+#pragma once
+
+#include "app/configuration.hpp"
+#include "app/run_options.hpp"
+#include "output/results_folder.hpp"
+
+namespace rhexis::app {
+
+/// Of the whole run. Of one that restarts, the files whose names depend on the step of its checkpoint are
+/// missing: see files_of_steps.
+output::FolderPlan folder_plan(const Configuration& c, const RunOptions& options);
+
+/// The series of particles of a run from `first_step`, without an ending: a restart leaves the series of the
+/// run that it continues as it is.
+std::string series_name(long first_step, bool restarts);
+/// Relative to the folder of the results.
+std::string checkpoint_name(long step);
+
+/// That series and the checkpoints that may follow, also those which an interrupt asks for.
+output::FutureFiles files_of_steps(const Configuration& c, long first_step, bool restarts);
+
+}  // namespace rhexis::app
