@@ -10,6 +10,7 @@
 #include "app/configuration.hpp"
 #include "app/coupled_run.hpp"
 #include "app/ensemble_run.hpp"
+#include "app/folder_plan.hpp"
 #include "app/network_run.hpp"
 #include "app/stopwatch.hpp"
 #include "app/version.hpp"
@@ -30,17 +31,17 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   CLI::App* check =
       cli.add_subcommand("check", "Validate an input file; print derived numbers and the expected cost");
   CLI::App* keys = cli.add_subcommand("keys", "Explain every key of input files");
+  const auto not_empty = [](const std::string& text) {
+    return std::string(text.empty() ? "the name is empty" : "");
+  };
   for (CLI::App* sub : {run, check}) {
     sub->add_option("FILE", command.file, "Input file (TOML)")->required();
+    sub->add_option("-o,--output", command.directory, "Folder for results; default results/<name of FILE>")
+        ->check(not_empty);
     sub->add_option("--set", command.overrides, "Replace or add a key, e.g. --set load.pressure='200 kPa'")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
   }
-  const auto not_empty = [](const std::string& text) {
-    return std::string(text.empty() ? "the name is empty" : "");
-  };
-  run->add_option("-o,--output", command.directory, "Folder for results; default results/<name of FILE>")
-      ->check(not_empty);
   run->add_option("--restart", command.restart, "Go on from a checkpoint of an earlier run")
       ->check(not_empty);
   run->add_flag("--overwrite", command.overwrite,
@@ -69,10 +70,6 @@ int carry_out(const Command& command, parallel::Communicator comm) {
   }
   const double started = seconds_now();
   Configuration configuration = read_configuration(command.file, command.overrides, comm);
-  if (command.action == Action::check) {
-    check(configuration, comm);
-    return 0;
-  }
   RunOptions options;
   options.directory = command.directory.empty()
                           ? std::filesystem::path("results") / std::filesystem::path(command.file).stem()
@@ -82,6 +79,11 @@ int carry_out(const Command& command, parallel::Communicator comm) {
   options.quiet = command.quiet;
   options.command = command.arguments;
   options.started = started;
+  if (command.action == Action::check) {
+    output::refuse_obstacles(folder_plan(configuration, options), comm);
+    check(configuration, comm);
+    return 0;
+  }
   const auto run = [&] {
     if (configuration.model == "network") return NetworkRun(std::move(configuration), options, comm).run();
     if (configuration.is_ensemble()) return EnsembleRun(std::move(configuration), options, comm).run();

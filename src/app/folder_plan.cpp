@@ -16,7 +16,8 @@ void append(Names& names, const Names& more, const std::string& folder = "") {
 /// Those of network_files.hpp.
 Names network_names(const Configuration& c) {
   Names names{"network.xdmf", "network.h5"};
-  const bool implicit = c.network.source == "tree" && c.network.tier != "explicit" && c.network.tier != "distributed";
+  const bool implicit =
+      c.network.source == "tree" && c.network.tier != "explicit" && c.network.tier != "distributed";
   if (implicit && c.network.statistics) append(names, {"generations.csv", "histograms.csv"});
   if (!implicit) names.emplace_back("vessels.csv");
   if (c.screening.top > 0) append(names, {"screening.csv", "risk_histograms.csv"});
@@ -69,7 +70,8 @@ output::FolderPlan folder_plan(const Configuration& c, const RunOptions& options
     plan.earlier = output::EarlierResults::keep;
   }
   plan.writes = files_of(c, restarts);
-  if (c.output.movie && c.insitu.enabled && !c.insitu.scripts.empty() && !c.is_ensemble() && c.model != "network")
+  if (c.output.movie && c.insitu.enabled && !c.insitu.scripts.empty() && !c.is_ensemble() &&
+      c.model != "network")
     plan.writes.names.emplace_back("movie.mp4");
   return plan;
 }

@@ -216,10 +216,10 @@ void NetworkCoupling::exchange(const Wall& wall) {
     for (double& p : load_.pressure) p = std::max(p, 0.0);
     worst_imbalance_ = std::max(worst_imbalance_, now.imbalance());
     ++windows_;
-    table_.append(fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", wall.time_s, wall.schedule,
-                          wall.schedule * load_.pressure[0], wall.schedule * load_.pressure[1],
-                          wall.schedule * load_.pressure[2], wall.opening, leak_, wall.schedule * now.inflow,
-                          wall.schedule * now.outflow, wall.resistance_factor, now.imbalance()));
+    table_.append(fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{}\n", wall.time_s, wall.schedule, wall.schedule * load_.pressure[0],
+        wall.schedule * load_.pressure[1], wall.schedule * load_.pressure[2], wall.opening, leak_,
+        wall.schedule * now.inflow, wall.schedule * now.outflow, wall.resistance_factor, now.imbalance()));
   });
   double values[] = {load_.pressure[0], load_.pressure[1], load_.pressure[2], leak_, highest_reynolds_};
   if (!comm_.is_root()) std::fill(std::begin(values), std::end(values), 0.0);

@@ -48,7 +48,8 @@ class RunBase {
   /// Does `work`, which returns whether an interrupt ended it, and tells run.json how it ended. What is found
   /// to be wrong with the input once run.json has begun is a failure of the run.
   Ending recorded(const std::function<bool()>& work);
-  /// Starts ParaView, or settles why there will be no pictures. Collective. Throws InputError for a bad script.
+  /// Starts ParaView, or settles why there will be no pictures. Collective. Throws InputError for a bad
+  /// script.
   void start_insitu();
   /// Ends ParaView, unless other runs still need it.
   void finish_insitu();

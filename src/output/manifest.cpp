@@ -73,8 +73,7 @@ Manifest read_manifest(const std::filesystem::path& directory) {
   Manifest manifest;
   for (int number = 2; std::getline(file, line) && !file.eof(); ++number) {
     const std::string fault = take(line, manifest);
-    if (!fault.empty())
-      throw InputError(fmt::format("{}:{}: '{}': {}", path.string(), number, line, fault));
+    if (!fault.empty()) throw InputError(fmt::format("{}:{}: '{}': {}", path.string(), number, line, fault));
   }
   return manifest;
 }

@@ -40,6 +40,16 @@ constexpr std::size_t longest_name_inside = 512;
   throw InputError(fmt::format("cannot write results to {}: {}; {}", path.string(), reason, remedy));
 }
 
+/// Whether there is a folder of this name. Throws where something else has it.
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) return true;
+  if (fs::exists(status)) refuse(path, "it is a file, not a folder");
+  if (fs::is_symlink(fs::symlink_status(path, error))) refuse(path, "it is a link that leads nowhere");
+  return false;
+}
+
 /// Folders made by this run, innermost last; taken back unless they are kept.
 class NewFolders {
  public:
@@ -52,12 +62,9 @@ class NewFolders {
 
   /// Makes `path` with its parents where they are missing.
   void make(const fs::path& path) {
-    std::error_code error;
-    const fs::file_status status = fs::status(path, error);
-    if (fs::is_directory(status)) return;
-    if (fs::exists(status)) refuse(path, "it is a file, not a folder");
-    if (fs::is_symlink(fs::symlink_status(path, error))) refuse(path, "it is a link that leads nowhere");
+    if (is_folder(path)) return;
     if (path.has_parent_path() && path.parent_path() != path) make(path.parent_path());
+    std::error_code error;
     if (fs::create_directory(path, error)) made_.push_back(path);
     if (error) refuse(path, error.message());
   }
@@ -92,10 +99,12 @@ std::shared_ptr<const void> lock(const fs::path& directory) {
   return held;
 }
 
+constexpr const char* samples = "samples.csv";
+
 /// Whole rows below the header of an ensemble's table.
 bool holds_samples(const fs::path& directory) {
-  if (!fs::is_regular_file(directory / "samples.csv")) return false;
-  std::istringstream table(whole_file(directory / "samples.csv"));
+  if (!fs::is_regular_file(directory / samples)) return false;
+  std::istringstream table(whole_file(directory / samples));
   std::string line;
   return std::getline(table, line) && std::getline(table, line) && !table.eof();
 }
@@ -104,7 +113,7 @@ bool holds_samples(const fs::path& directory) {
 using Identity = std::pair<dev_t, ino_t>;
 
 std::optional<Identity> identity(const fs::path& path) {
-  struct stat status{};
+  struct stat status {};
   if (stat(path.c_str(), &status) != 0) return {};
   return Identity(status.st_dev, status.st_ino);
 }
@@ -118,15 +127,16 @@ std::set<Identity> identities(const std::vector<fs::path>& paths) {
     add(path);
     std::error_code ignored;
     if (!fs::is_directory(path, ignored)) continue;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path, ignored)) add(entry.path());
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path, ignored))
+      add(entry.path());
   }
   return all;
 }
 
 std::string list_of(const std::vector<std::string>& names) {
   constexpr std::size_t shown = 5;
-  const std::vector<std::string> first(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(
-                                                                           std::min(shown, names.size())));
+  const std::vector<std::string> first(
+      names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(shown, names.size())));
   return fmt::format("{}{}", fmt::join(first, ", "),
                      names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "");
 }
@@ -145,6 +155,13 @@ class Contents {
  public:
   explicit Contents(const FolderPlan& plan)
       : directory_(plan.directory), overwrite_(plan.overwrite), reads_(identities(plan.reads)) {
+    for (fs::path path = directory_; !is_folder(path) && path.has_parent_path(); path = path.parent_path()) {
+    }
+    const bool for_samples = std::ranges::find(plan.writes.names, samples) != plan.writes.names.end();
+    if (plan.earlier == EarlierResults::remove && !for_samples && holds_samples(directory_)) {
+      refuse(directory_, "it holds the samples of an ensemble",
+             "move samples.csv away, or choose another folder with -o");
+    }
     try {
       manifest = read_manifest(directory_);
     } catch (const InputError& error) {
@@ -172,7 +189,7 @@ class Contents {
     std::vector<std::string> read, foreign;
     for (const std::string& name : names) {
       refuse_detour(name);
-      struct stat status{};
+      struct stat status {};
       const fs::path path = directory_ / name;
       if (lstat(path.c_str(), &status) != 0) {
         if (errno != ENOENT) refuse(path, std::strerror(errno));
@@ -200,9 +217,7 @@ class Contents {
   }
 
   /// Whether all folders on the way to this file are folders, not links, as far as they are there.
-  bool is_straight(const std::string& name) const {
-    return detour(name).empty();
-  }
+  bool is_straight(const std::string& name) const { return detour(name).empty(); }
 
   Manifest manifest;
 
@@ -215,7 +230,7 @@ class Contents {
   fs::path detour(const std::string& name) const {
     for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1)) {
       const fs::path folder = directory_ / name.substr(0, slash);
-      struct stat status{};
+      struct stat status {};
       if (lstat(folder.c_str(), &status) == 0 && !S_ISDIR(status.st_mode)) return folder;
     }
     return {};
@@ -246,9 +261,6 @@ class ResultsFolder::State {
       : directory(plan.directory), comm(communicator), earlier_(plan.earlier) {
     share_run_token(comm.broadcast(run_token()));
     parallel::on_root<InputError>(comm, [&] {
-      if (earlier_ == EarlierResults::remove && holds_samples(directory))
-        refuse(directory, "it holds the samples of an ensemble",
-               "move samples.csv away, or choose another folder with -o");
       if (fs::absolute(directory).string().size() + longest_name_inside > PATH_MAX)
         refuse(directory, std::strerror(ENAMETOOLONG));
       made_.make(directory);
@@ -287,6 +299,8 @@ class ResultsFolder::State {
     claimed_.insert(name);
   }
 
+  const std::set<std::string>& files() const { return contents_->manifest.files; }
+
   const fs::path directory;
   const parallel::Communicator comm;
 
@@ -300,7 +314,7 @@ class ResultsFolder::State {
   }
 
   void unlink_ours(const fs::path& path) const {
-    struct stat status{};
+    struct stat status {};
     if (lstat(path.c_str(), &status) != 0 || S_ISDIR(status.st_mode)) return;
     if (unlink(path.c_str()) != 0)
       refuse(path, fmt::format("cannot remove the results of an earlier run: {}", std::strerror(errno)));
@@ -335,7 +349,8 @@ class ResultsFolder::State {
       unlink_ours(path);
       return true;
     });
-    for (auto name = manifest.folders.rbegin(); name != manifest.folders.rend(); ++name) {  // inner ones first
+    for (auto name = manifest.folders.rbegin(); name != manifest.folders.rend();
+         ++name) {  // inner ones first
       if (contents_->is_straight(*name + "/x")) rmdir((directory / *name).c_str());
     }
     std::erase_if(manifest.folders, [&](const std::string& name) {
@@ -387,6 +402,16 @@ fs::path ResultsFolder::claim_on_root(const std::string& name) const {
   assert(state_->comm.is_root());
   state_->claim(prefix_ + name);
   return path() / name;
+}
+
+std::vector<std::string> ResultsFolder::files_in(const std::string& folder) const {
+  assert(state_->comm.is_root());
+  const std::string before = prefix_ + folder + "/";
+  std::vector<std::string> names;
+  for (const std::string& name : state_->files()) {
+    if (name.starts_with(before)) names.push_back(name.substr(before.size()));
+  }
+  return names;
 }
 
 ResultsFolder ResultsFolder::subfolder(const std::string& name) const {

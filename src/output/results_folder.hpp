@@ -36,7 +36,8 @@ struct FolderPlan {
 
 /// Throws InputError on all ranks, naming the files and what can be done, if what the plan says cannot be
 /// done: a file is in the way that no run made, a file that the run itself reads would be written, a link or
-/// a file is where a folder must be, or the manifest is damaged. Nothing is changed. Collective.
+/// a file is where a folder must be, or the manifest is damaged. So is, where earlier results would be
+/// removed, the folder of an ensemble by another run: samples took long. Nothing is changed. Collective.
 void refuse_obstacles(const FolderPlan& plan, const parallel::Communicator& communicator);
 
 /// A handle to the folder; copies share it. As long as one of them lives, the folder is this run's alone
@@ -44,9 +45,8 @@ void refuse_obstacles(const FolderPlan& plan, const parallel::Communicator& comm
 class ResultsFolder {
  public:
   /// Makes the folder with its parents, `images/` and `checkpoints/`, makes sure that it can be written to,
-  /// and refuses obstacles. What earlier runs left stays; folders that were made go with the object unless
-  /// `remove_earlier_results` is called. The samples of an ensemble, which took long, are not removed: where
-  /// earlier results would be, their folder is refused, and so is one where another run is still writing.
+  /// and refuses obstacles and a folder where another run is still writing. What earlier runs left stays;
+  /// folders that were made go with the object unless `remove_earlier_results` is called.
   /// Collective; throws InputError on all ranks if the folder cannot be used.
   ResultsFolder(const FolderPlan& plan, const parallel::Communicator& communicator);
 
@@ -65,6 +65,10 @@ class ResultsFolder {
   std::filesystem::path claim(const std::string& name) const;
   /// The same by the root alone, which alone throws.
   std::filesystem::path claim_on_root(const std::string& name) const;
+
+  /// Names, relative to `folder`, of the files in and below that folder which the manifest knows. Of the root
+  /// alone.
+  std::vector<std::string> files_in(const std::string& folder) const;
 
   /// A folder inside, made by what is claimed there, whose names are relative to it.
   ResultsFolder subfolder(const std::string& name) const;

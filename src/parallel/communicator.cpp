@@ -47,6 +47,9 @@ Session::Session(int& argc, char**& argv) {
   // Otherwise Open MPI 5 reports "Unable to find reachable pairing" on a host with IPv4 and IPv6 addresses
   // (open-mpi/ompi issue 14079), though the ranks reach each other. A setting of the user's stays.
   setenv("OMPI_MCA_reachable", "weighted", 0);
+  // Open MPI's component 'lockedfile', for shared file pointers that nobody here uses, makes a file beside
+  // each one that is opened, and overruns a buffer where paths have more than 243 characters.
+  setenv("OMPI_MCA_sharedfp", "^lockedfile", /*overwrite=*/0);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   if (std::getenv("OMP_NUM_THREADS") == nullptr) share_cores();

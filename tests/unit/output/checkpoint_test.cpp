@@ -140,7 +140,8 @@ TEST(Checkpoint, AFullDiskIsAnErrorOnAllRanksAndLeavesNothing) {
     for (const char* name : {"x", "y", "z"}) writer.write(name, layout, values);
   });
   EXPECT_EQ(message.find((directory / ".state.h5.").string()), 0) << message;
-  EXPECT_NE(message.find(": cannot reserve disk space: No space left on device"), std::string::npos) << message;
+  EXPECT_NE(message.find(": cannot reserve disk space: No space left on device"), std::string::npos)
+      << message;
   world.barrier();
   EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
 }
@@ -149,8 +150,7 @@ TEST(Checkpoint, WritingWhereThereIsNoFolderIsARunError) {
   const TemporaryDirectory directory;
   const std::string message =
       test::message_of<RunError>([&] { CheckpointWriter(directory / "no/state.h5", world); });
-  EXPECT_NE(message.find("no/state.h5: cannot create the file: No such file"), std::string::npos)
-      << message;
+  EXPECT_NE(message.find("no/state.h5: cannot create the file: No such file"), std::string::npos) << message;
 }
 
 TEST(Checkpoint, AFileThatIsNoCheckpointIsAnInputError) {

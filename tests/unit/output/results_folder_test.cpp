@@ -132,12 +132,14 @@ TEST(ResultsFolder, AFileThatNoRunMadeIsRefusedWithItsName) {
   make_files(directory.path(), {"history.csv", "vessels.csv", "checkpoints/step_000007.h5"});
   FolderPlan plan{.directory = directory.path(), .writes = {.names = {"run.json", "history.csv"}}};
   const std::string message = refusal(plan);
-  EXPECT_TRUE(contains(message, "history.csv would be replaced, and no earlier run made it; move it away, replace "
-                                "it with --overwrite, or choose another folder with -o"))
+  EXPECT_TRUE(contains(message,
+                       "history.csv would be replaced, and no earlier run made it; move it away, replace "
+                       "it with --overwrite, or choose another folder with -o"))
       << message;
   EXPECT_FALSE(contains(message, "run.json") || contains(message, "vessels.csv")) << message;
   EXPECT_EQ(text_of(directory / "run.json"), "ours");
-  plan.writes = {.may_be_written = [](const std::string& name) { return name == "checkpoints/step_000007.h5"; }};
+  plan.writes = {
+      .may_be_written = [](const std::string& name) { return name == "checkpoints/step_000007.h5"; }};
   EXPECT_TRUE(contains(refusal(plan), "checkpoints/step_000007.h5 would be replaced"));
   EXPECT_EQ(test::message_of<InputError>([&] { output::refuse_obstacles(plan, world); }), refusal(plan));
   plan.overwrite = true;
@@ -165,7 +167,8 @@ TEST(ResultsFolder, AFileThatTheRunReadsIsNeverTouched) {
                   .overwrite = true,
                   .reads = {directory / "link.csv", directory / "package"},
                   .writes = {.names = {"network.h5", "vessels.csv"}}};
-  EXPECT_TRUE(contains(refusal(plan), "the run reads vessels.csv and would replace it; choose another folder"));
+  EXPECT_TRUE(
+      contains(refusal(plan), "the run reads vessels.csv and would replace it; choose another folder"));
   plan.writes.names = {"images/part.py"};
   EXPECT_TRUE(contains(refusal(plan), "the run reads images/part.py"));
   plan.writes.names = {};
@@ -188,7 +191,8 @@ TEST(ResultsFolder, LinksInsideAreNotFollowed) {
     fs::create_symlink("../victim", directory / "r/event_01");
   });
   FolderPlan plan{.directory = directory / "r", .writes = {.names = {"event_01/run.json"}}};
-  EXPECT_TRUE(contains(refusal(plan), "r/event_01: it is a link, and links inside a results folder are not followed"));
+  EXPECT_TRUE(contains(refusal(plan),
+                       "r/event_01: it is a link, and links inside a results folder are not followed"));
   plan.writes.names = {"history.csv"};
   EXPECT_TRUE(contains(refusal(plan), "history.csv would be replaced"));
   // What an earlier run made goes; the user's own link, and what links point at, stay.
@@ -231,7 +235,8 @@ TEST(ResultsFolder, ADamagedManifestIsRefusedWithItsName) {
   const std::pair<const char*, const char*> damages[] = {
       {"notes of mine\n", "its first line should be"},
       {"rhexis results 1\nfile ../secret\n", "manifest.txt:2: 'file ../secret': a name has no empty part"},
-      {"rhexis results 1\nfile a\nfile /etc/passwd\n", "manifest.txt:3: 'file /etc/passwd': a name is relative"},
+      {"rhexis results 1\nfile a\nfile /etc/passwd\n",
+       "manifest.txt:3: 'file /etc/passwd': a name is relative"},
       {"rhexis results 1\nfile a//b\n", "empty part"},
       {"rhexis results 1\nfolder images/\n", "does not end in '/'"},
       {"rhexis results 1\nfile a\rb\n", "no control characters"},
