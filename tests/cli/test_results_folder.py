@@ -8,8 +8,8 @@ import unittest
 sys.path.insert(0, os.path.dirname(__file__))
 from vessel_case import GOOD, VesselCase  # noqa: E402
 
-# 304 particles, 10 steps.
-TINY = GOOD.replace('"100 um"', '"250 um"').replace('end = "50 us"', 'end = "5 us"') + "checkpoint_every = 5\n"
+# 1152 particles, 10 steps.
+TINY = GOOD.replace('length = "2 mm"', 'length = "3 mm"').replace('"100 um"', '"250 um"').replace('end = "50 us"', 'end = "5 us"') + "checkpoint_every = 5\n"
 NETWORK = """\
 [scene]
 model = "network"
@@ -60,7 +60,8 @@ class ResultsFolder(VesselCase):
         self.assertEqual(self.contents(), before)
         if not more:
             checked = self.rhexis("check", file, "-o", "r")
-            self.assertEqual((checked.returncode, checked.stderr), (2, result.stderr))
+            self.assertEqual(checked.returncode, 2)
+            self.assertTrue(result.stderr.startswith(checked.stderr), result.stderr)  # mpirun adds its own words
             self.assertEqual(self.contents(), before)
 
     # -- what a run leaves alone --------------------------------------------------------------------------------
