@@ -8,8 +8,15 @@
 #include <cstdlib>
 
 #include "app/stopwatch.hpp"
+#include "core/printable.hpp"
 
 namespace rhexis::app {
+namespace {
+
+/// In bytes: what a warning quotes may be as long as a file.
+constexpr std::size_t longest_warning = 4000;
+
+}  // namespace
 
 std::string grouped(long long count) {
   const std::string digits = std::to_string(std::abs(count));
@@ -43,7 +50,7 @@ Console::~Console() {
 void Console::line(const std::string& text) {
   if (!speaks_) return;
   clear_bar();
-  fmt::print("{}\n", text);
+  fmt::print("{}\n", printable(text));
   std::fflush(stdout);
 }
 
@@ -55,7 +62,7 @@ void Console::warning(const std::string& text) {
   if (!speaks_) return;
   clear_bar();
   std::fflush(stdout);
-  fmt::print(stderr, "rhexis: warning: {}\n", text);
+  fmt::print(stderr, "rhexis: warning: {}\n", printable(text, longest_warning));
 }
 
 void Console::progress(long step, long steps, const std::string& state, const std::string& what) {

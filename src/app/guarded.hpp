@@ -7,9 +7,13 @@
 #include <exception>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::app {
+
+/// Bytes of a message at most: what it quotes may be as long as a file.
+constexpr std::size_t longest_message = 4000;
 
 /// Runs `work` and returns its exit status, or 2 for wrong input, or 3 for a failure while running. Both
 /// kinds of error are thrown on all ranks together, so one of them speaks; anything else is one rank's own
@@ -18,7 +22,7 @@ template <class Work>
 int guarded(parallel::Communicator comm, const Work& work) {
   const auto say = [&](const char* what) {
     std::fflush(stdout);
-    if (comm.is_root()) fmt::print(stderr, "rhexis: {}\n", what);
+    if (comm.is_root()) fmt::print(stderr, "rhexis: {}\n", printable(what, longest_message));
   };
   try {
     return work();
@@ -29,7 +33,7 @@ int guarded(parallel::Communicator comm, const Work& work) {
     say(error.what());
     return 3;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "rhexis: rank {}: {}\n", comm.rank(), reason_of(error));
+    fmt::print(stderr, "rhexis: rank {}: {}\n", comm.rank(), printable(reason_of(error), longest_message));
     comm.abort(3);
   }
 }

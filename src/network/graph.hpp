@@ -9,8 +9,8 @@
 
 namespace rhexis::network {
 
-/// m; a radius, length or wall beyond it is in the wrong unit.
-constexpr double largest_measure = 100;
+/// m; a radius, length or wall beyond these is in the wrong unit. The smallest is less than an atom.
+constexpr double smallest_measure = 1e-12, largest_measure = 100;
 
 enum class VesselKind : std::uint8_t { artery = 0, vein = 1, unknown = 2 };
 

@@ -83,9 +83,10 @@ void NetworkBuilder::add(const VesselRow& row, const std::string& where) {
   if (from == to) refuse(where, "vessel " + row.id + " leads from junction " + row.from + " to itself");
   const auto positive = [&](const char* what, std::optional<double> value) {
     if (!value) refuse(where, std::string(what) + " of vessel " + row.id + " is missing");
-    if (!(*value > 0 && *value <= largest_measure)) {
+    if (!(*value >= smallest_measure && *value <= largest_measure)) {
       refuse(where, std::string(what) + " of vessel " + row.id + " is " + text(*value) +
-                        " m: must be greater than 0 m and at most " + text(largest_measure) + " m");
+                        " m: must be at least " + text(smallest_measure) + " m and at most " +
+                        text(largest_measure) + " m");
     }
     return *value;
   };

@@ -94,11 +94,13 @@ void Reading::add_vessel(std::size_t line, std::span<const std::size_t> run) {
 void Reading::check_measures() const {
   const Graph& graph = result_.graph;
   const auto check = [&](const char* name, const std::vector<double>& values) {
-    const auto found = std::ranges::find_if(values, [](double value) { return !(value <= largest_measure); });
+    const auto found = std::ranges::find_if(
+        values, [](double value) { return !(value >= smallest_measure && value <= largest_measure); });
     if (found == values.end()) return;
+    const bool large = *found > largest_measure;
     fail_at_cell(line_[static_cast<std::size_t>(found - values.begin())],
-                 fmt::format("{} is {} m, above {} m: is network.file_length_unit right?", name, *found,
-                             largest_measure));
+                 fmt::format("{} is {} m, {} {} m: is network.file_length_unit right?", name, *found,
+                             large ? "above" : "below", large ? largest_measure : smallest_measure));
   };
   check("radius", graph.radius);
   check("length", graph.length);
