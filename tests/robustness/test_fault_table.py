@@ -4,6 +4,7 @@ Run by ctest as: test_fault_table.py RHEXIS MPIRUN...   (with /usr/bin/python3, 
 """
 
 import dataclasses
+import io
 import os
 import pathlib
 import subprocess
@@ -68,6 +69,42 @@ FOLDERS = [
 ]
 
 
+INPUTS = [
+    Fault("a key that begins with an accent", 2, ["s.toml:5", "'é'"], scene=VESSEL.replace("[discretisation]", "élength = 1\n[discretisation]")),
+]
+
+
+def of_dataset(name, change):
+    def damage(file):
+        data = file[name][()]
+        change(data)
+        file[name][...] = data
+    return damage
+
+
+def flip_a_bit(data):
+    data.view("u1").flat[data.nbytes // 2] ^= 1
+
+
+def other_number(name, value):
+    def damage(file):
+        del file.attrs[name]
+        file.attrs[name] = value
+    return damage
+
+
+# Damage to a checkpoint, and what the refusal names.
+CHECKPOINTS = [
+    ("3 x 3 numbers where one was", other_number("step", numpy.ones((3, 3), "i8")), "step"),
+    ("a text where a number was", other_number("load_speed", "fast"), "numbers"),
+    ("a step that is never reached", other_number("step", -4_600_000_000_000_000_000), "numbers"),
+    ("work beyond all", other_number("external_work_0", 1e308), "numbers"),
+    ("a bit of a displacement", of_dataset("displacement_x", flip_a_bit), "displacement_x"),
+    ("a bit of a bond", of_dataset("intact_bonds", flip_a_bit), "intact_bonds"),
+    ("a bit of the input", of_dataset("input", flip_a_bit), "input"),
+]
+
+
 class FaultTable(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="rhexis_faults_")
@@ -89,7 +126,7 @@ class FaultTable(unittest.TestCase):
         """Within 4 GB and 20 s of a processor."""
         with tempfile.TemporaryDirectory() as sessions:
             environment = {**os.environ, "OMPI_MCA_orte_tmpdir_base": sessions, **environment}
-            return subprocess.run(["sh", "-c", 'ulimit -v 4000000 -t 20; exec "$@"', "limits", RHEXIS, *arguments], cwd=folder, capture_output=True,
+            return subprocess.run(["sh", "-c", 'ulimit -v 4000000; ulimit -t 20; exec "$@"', "limits", RHEXIS, *arguments], cwd=folder, capture_output=True,
                                   text=True, timeout=300, stdin=subprocess.DEVNULL, env=environment, check=False)
 
     def check_all(self, faults):
@@ -111,6 +148,23 @@ class FaultTable(unittest.TestCase):
 
     def test_folders(self):
         self.check_all(FOLDERS)
+
+    def test_inputs(self):
+        self.check_all(INPUTS)
+
+
+    def test_checkpoints(self):
+        good = self.prepare(Fault("", 0, []), "good")
+        result = self.rhexis(good, ["run", "s.toml", "-o", "out", "--quiet"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        faults = []
+        for name, damage, said in CHECKPOINTS:
+            with h5py.File(io.BytesIO((good / "out/checkpoints/step_000010.h5").read_bytes()), "r+") as file:
+                damage(file)
+                file.flush()
+                damaged = file.id.get_file_image()
+            faults.append(Fault(name, 2, ["damaged.h5", said], {"damaged.h5": damaged}, command=["run", "s.toml", "-o", "out", "--quiet", "--restart", "damaged.h5"]))
+        self.check_all(faults)
 
 
 if __name__ == "__main__":

@@ -16,7 +16,9 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <exception>
+#include <filesystem>
 
+#include "network/vtp/child_process.hpp"
 #include "network/vtp/interface.hpp"
 
 namespace rhexis::network::vtp {
@@ -167,9 +169,7 @@ std::string complaint(const Silence& silence, bool done, unsigned long code) {
   return done && code == 0 ? std::string() : "VTK's error code " + std::to_string(code);
 }
 
-}  // namespace
-
-extern "C" void rhexis_vtp_read(const std::string& path, Lines& lines, std::string& problem) try {
+void read_here(const std::string& path, Lines& lines, std::string& problem) try {
   const Silence silence;
   vtkNew<vtkXMLPolyDataReader> reader;
   reader->SetFileName(path.c_str());
@@ -178,6 +178,18 @@ extern "C" void rhexis_vtp_read(const std::string& path, Lines& lines, std::stri
   vtkPolyData* data = reader->GetOutput();
   if (problem.empty()) problem = data == nullptr ? "no PolyData" : check_offsets(data);
   if (problem.empty()) copy_lines(data, lines);
+} catch (const std::exception& error) {
+  problem = error.what();
+}
+
+}  // namespace
+
+extern "C" void rhexis_vtp_read(const std::string& path, Lines& lines, std::string& problem) try {
+  std::error_code failure;
+  const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
+  problem = failure ? failure.message() : std::string();
+  if (!failure)
+    read_in_child([&](Lines& l, std::string& p) { read_here(path, l, p); }, bytes, lines, problem);
 } catch (const std::exception& error) {
   problem = error.what();
 }

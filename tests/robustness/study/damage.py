@@ -1,8 +1,10 @@
-"""Damage to an HDF5 file: of its bytes, and of what it holds, by h5py. Every function returns the name of what it damaged, or None."""
+"""Damage to an HDF5 file: of its bytes, and of what it holds, by h5py. Every function returns the names of what it damaged,
+one of which a refusal must tell; none where nobody can say."""
 
 import h5py
 import numpy
 
+NUMBERS_OF_A_CHECKPOINT = "its numbers"  # attributes have one checksum together
 NUMBERS = (0, -1, 1, 2, -4_600_000_000_000_000_000, 2**31, 2**62, -(2**63))
 REALS = (float("nan"), float("inf"), -float("inf"), 1e308, -1e308, 5e-324, 0.0, -1.0, 1.0, 1e-9, 1e9)
 
@@ -45,7 +47,7 @@ def remove_dataset(random, path):
     with h5py.File(path, "r+") as file:
         name = random.choice(datasets(file))
         del file[name]
-        return name
+        return [name]
 
 
 def rename_dataset(random, path):
@@ -57,7 +59,7 @@ def rename_dataset(random, path):
             file.move("unused", b)
         else:
             file.move(a, a + "_old")
-        return a
+        return [a, b]
 
 
 def replace_dataset(random, path):
@@ -70,7 +72,7 @@ def replace_dataset(random, path):
         file[name] = new
         for key, value in attributes.items():
             file[name].attrs[key] = value
-        return name
+        return [name]
 
 
 def one_value(random, old):
@@ -95,7 +97,7 @@ def remove_attribute(random, path):
     with h5py.File(path, "r+") as file:
         place, name = random.choice(attributes(file))
         del file[place].attrs[name]
-        return name
+        return [name, NUMBERS_OF_A_CHECKPOINT]
 
 
 def attributes(file):
@@ -109,7 +111,7 @@ def replace_attribute(random, path):
         new = random.choice((random.choice(NUMBERS), random.choice(REALS), numpy.ones((3, 3)), numpy.zeros(100000 // 16), "text", "x" * 5000, numpy.array([], "f8"), numpy.float32(1)))
         del file[place].attrs[name]
         file[place].attrs[name] = new
-        return name
+        return [name, NUMBERS_OF_A_CHECKPOINT]
 
 
 def change_text(random, path):
@@ -122,7 +124,7 @@ def change_text(random, path):
         data = file[name][()]
         data[random.randrange(len(data))] = random.choice((0, 34, 44, 48, 57, 58, 91, 93, 123, 125, 255))
         file[name][...] = data
-        return name
+        return [name]
 
 
 KINDS = (flip_bits, flip_bits, overwrite, overwrite, truncate, extend, remove_dataset, rename_dataset, replace_dataset, replace_dataset, remove_attribute, replace_attribute,

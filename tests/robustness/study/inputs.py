@@ -7,25 +7,46 @@ import pathlib
 import random
 import re
 import shutil
+import sys
 import tempfile
 
 from study import mutations, scenes
-from study.program import changes, snapshot
+from study.program import changes, is_temporary, snapshot
 
 MINE = "mine.txt"  # a file of the user's, in the results folder of half the cases
+WITH_RESULTS = ("vessel", "cascade", "ensemble")  # scenes that are run again over results of theirs, one file of which is damaged
 LARGEST_RUN_S, LARGEST_COST = 3, 3e7  # by check's own estimate; particles x steps
 LONGEST_MESSAGE = 6000
 
 
-def make_case(seed, number, all_scenes, keys):
+def earlier_results(program, all_scenes):
+    """By scene: the results of a run, as names below the folder with bytes."""
+    results = {}
+    for name in WITH_RESULTS:
+        with tempfile.TemporaryDirectory(prefix="rhexis_study_") as folder:
+            for file, text in all_scenes[name].items():
+                (pathlib.Path(folder) / file).write_text(text)
+            outcome = program.run(["run", "scene.toml", "-o", "out", "--quiet"], folder)
+            if outcome.status != 0:
+                sys.exit(f"error: {name} does not run: {outcome.errors}")
+            results[name] = {file: data for file, data in snapshot(folder).items() if data is not None and file.startswith("out/")}
+    return results
+
+
+def make_case(seed, number, all_scenes, results, keys):
     """Name of the scene, its files as bytes, arguments, and which mutations made it: the same for the same seed and number."""
     source = random.Random(f"{seed}:{number}")
-    name = source.choice(sorted(all_scenes))
+    kind = source.random()
+    name = source.choice(sorted(results if kind > 0.93 else all_scenes))
     files = {file: text.encode() for file, text in all_scenes[name].items()}
     arguments, told, place = [], [], "scene.toml"
     others = [file for file in files if file != "scene.toml"]
-    kind = source.random()
-    if kind < 0.12:
+    if kind > 0.93:
+        texts = [file for file in results[name] if file.endswith((".csv", ".json", ".txt"))]
+        place = source.choice([file for file in texts if file.endswith(("manifest.txt", "samples.csv"))] * 3 + texts)
+        files.update(results[name])
+        files[place], told = mutations.mutate_file(source, place, results[name][place].decode(), keys)
+    elif kind < 0.12:
         place = "--set"
         for _ in range(source.choice((1, 1, 2))):
             arguments += ["--set", mutations.argument(source, keys)]
@@ -39,11 +60,13 @@ def make_case(seed, number, all_scenes, keys):
 def run_case(program, case, folder, earlier):
     """Outcomes of check and run (None where it would take long) in `folder`, and what must not be."""
     for name, data in case["files"].items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_bytes(data)
     if earlier:
-        (folder / "out").mkdir()
+        (folder / "out").mkdir(exist_ok=True)
         (folder / "out" / MINE).write_text("not yours\n")
     before = snapshot(folder)
+    users = {name: data for name, data in before.items() if not name.startswith("out/") or name.endswith(MINE)}
     check = program.run(["check", "scene.toml", *case["arguments"]], folder)
     problems = [f"check {problem}" for problem in judge_ending(check, case)]
     problems += [f"check wrote: {change}" for change in changes(before, snapshot(folder))]
@@ -51,7 +74,7 @@ def run_case(program, case, folder, earlier):
     if check.ended_well() and not takes_long(check.output):
         run = program.run(["run", "scene.toml", "-o", "out", "--quiet", *case["arguments"]], folder)
         problems += judge_ending(run, case)
-        problems += judge_results(run, check, folder, before, earlier)
+        problems += judge_results(run, check, folder, before, users)
     return check, run, problems
 
 
@@ -69,7 +92,7 @@ def judge_ending(outcome, case):
         return problems + ([f"says of a success: {lines[0]}"] if lines else [])
     if len(lines) != 1:
         return [*problems, f"{len(lines)} error messages"]
-    if outcome.status == 2 and not any(name in lines[0] for name in (*case["files"], "--set")):
+    if outcome.status == 2 and not any(name in lines[0] for name in (*case["files"], "--set", "to out: ")):
         problems.append(f"names no file: {lines[0]}")
     return problems
 
@@ -89,15 +112,16 @@ def takes_long(output):
         or highest(r"of (\d+) generations") > 16
 
 
-def judge_results(run, check, folder, before, earlier):
+def judge_results(run, check, folder, before, users):
     """What is wrong with what the run left, given its status."""
     after = snapshot(folder)
     if run.status == 2:
         problems = [f"after status 2: {change}" for change in changes(before, after)]
-        return problems + (["check passed what run refuses"] if check.status == 0 else [])
-    problems = [f"the user's: {change}" for change in changes(before, {name: after.get(name) for name in before if name in after})]
+        refused_late = check.status == 0 and before.keys() == users.keys()  # check does not look at results
+        return problems + (["check passed what run refuses"] if refused_late else [])
+    problems = [f"the user's: {change}" for change in changes(users, {name: data for name, data in after.items() if name in users})]
     if not (folder / "out/run.json").exists():
-        return [*problems, "no record"] if (folder / "out").exists() and run.status == 0 else problems
+        return [*problems, "no record"] if run.status == 0 else problems
     try:
         record = json.loads((folder / "out/run.json").read_text(), parse_constant=lambda word: problems.append(f"record holds: {word}"))
     except ValueError as error:
@@ -107,7 +131,7 @@ def judge_results(run, check, folder, before, earlier):
         problems.append(f"record does not fit status {run.status}: {status}")
     if status == "completed":
         problems += [f"completed with: {place}" for place in not_finite(folder / "out", record)]
-    problems += [f"left over: {name}" for name in after if name.endswith((".part", ".spare", ".tmp"))]
+    problems += [f"left over: {name}" for name in after if is_temporary(name)]
     return problems
 
 
@@ -130,9 +154,10 @@ def not_finite(folder, record):
 
 def study(program, findings, seed, first, count, pool):
     all_scenes, keys = scenes.all_scenes(), program.keys()
+    results = earlier_results(program, all_scenes)
 
     def one(number):
-        case = make_case(seed, number, all_scenes, keys)
+        case = make_case(seed, number, all_scenes, results, keys)
         folder = pathlib.Path(tempfile.mkdtemp(prefix="rhexis_study_"))
         try:
             check, run, problems = run_case(program, case, folder, earlier=number % 2 == 0)

@@ -2,7 +2,6 @@
 
 import pathlib
 import random
-import re
 import shutil
 import signal
 import sys
@@ -11,12 +10,11 @@ import time
 import xml.etree.ElementTree
 
 from study import scenes
-from study.program import Outcome, is_text, kill_all
+from study.program import Outcome, is_temporary, is_text, kill_all
 from study.results import differences, found_by, newest_checkpoint
 
 SIGNALS = (signal.SIGKILL,) * 8 + (signal.SIGTERM, signal.SIGUSR1)
 RANKS = (1, 2, 3, 4)
-TEMPORARY = re.compile(r"\.(part|spare|tmp)\b")
 
 
 def long_scenes():
@@ -113,7 +111,7 @@ def study(program, findings, seed, first, count, pool):
                     problems += differences(scene.found, found_by(folder / "out"))
                 else:
                     problems.append(f"the run that goes on ended with {again.status}: {again.errors.strip()}")
-                problems += [f"left over: {path.name}" for path in folder.rglob("*") if TEMPORARY.search(path.name)]
+                problems += [f"left over: {path.name}" for path in folder.rglob("*") if is_temporary(path.name)]
                 told = ("ended before" if not early else "from a checkpoint" if checkpoint else "from the beginning")
                 details = {"signal": sent.name, "moment_s": moment, "ranks": ranks, "then": others, "checkpoint": checkpoint,
                            "killed": vars(killed), "again": vars(again)}

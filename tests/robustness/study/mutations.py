@@ -190,6 +190,15 @@ def json_token(random, text):
     return one_match(random, re.compile(r'"[^"\n]*"|[-\d.]+|[\[\]{},:]|null'), text, lambda match: new)
 
 
+def manifest_line(random, text):
+    """A line more, in the manifest of a results folder."""
+    rows = text.split("\n")
+    new = random.choice(("file ../scene.toml", "file /tmp/x", "folder ..", "folder .", "file mine.txt/..", "file", "run", "run x", "file a\tb", "file images/../../scene.toml", "rhexis results 2", "folder images/..",
+                         "file " + "x" * 5000))
+    rows.insert(random.randrange(len(rows) + 1), new)
+    return "\n".join(rows)
+
+
 def xml_token(random, text):
     """An attribute or a name of VTK's XML, otherwise."""
     if random.random() < 0.6:
@@ -230,7 +239,8 @@ CSV = (*TEXT, csv_cell, csv_cell, csv_cell, csv_separator, bracketed_unit, all_n
 JSON = (*TEXT, json_token, json_token, json_token, swap_words, key_name)
 VTP = (number, lines, xml_token, xml_token, xml_token)
 BYTES = (bytes_anywhere, bytes_anywhere, truncated, other_encoding)
-BY_ENDING = {".toml": TOML, ".csv": CSV, ".json": JSON, ".vtp": VTP}
+MANIFEST = (lines, piece, manifest_line, manifest_line)
+BY_ENDING = {".txt": MANIFEST, ".toml": TOML, ".csv": CSV, ".json": JSON, ".vtp": VTP}
 
 
 def other_word(random, text, keys):
@@ -268,7 +278,7 @@ def mutate_file(random, name, text, keys):
     ending = name[name.rindex("."):]
     mild = random.random() < 0.4
     for _ in range(random.choice((1, 1, 1, 2, 3))):
-        mutation = random.choice((mild_number, mild_number, without_line, other_word, add_key) if mild else (*BY_ENDING[ending], add_key, other_word))
+        mutation = random.choice((*[mild_number] * 5, without_line, other_word, add_key) if mild else (*BY_ENDING[ending], add_key, other_word))
         if mutation in (add_key, other_word):
             if ending != ".toml":
                 continue

@@ -108,6 +108,11 @@ def kill_all(process, number=signal.SIGKILL):
             pass
 
 
+def is_temporary(name):
+    """Whether a file of this name should have gone, or got its own, by the end of a run."""
+    return re.search(r"\.(part|spare|tmp)\b|\.[0-9a-f]{16}-\d+$", name) is not None
+
+
 def snapshot(folder):
     """Every file below `folder` with its bytes, every link with its target, every folder."""
     found = {}

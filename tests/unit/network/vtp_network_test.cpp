@@ -123,12 +123,31 @@ TEST_F(VtpNetwork, Mistakes) {
   refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "-1")), {"cell 0", "radius", "-1"});
   refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "1e8")),
           {"cell 0", "radius", "above 100 m", "network.file_length_unit"});
+  refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "1e-13")),
+          {"cell 0", "radius", "below 1e-12 m", "network.file_length_unit"});
   refused(polydata(2, 1, two, "0 1", "2", "", array("radius", "1") + array("generation", "-2")),
           {"cell 0", "generation is -2", "-1 .. 127"});
   refused(polydata(2, 1, two, "0 0", "2", "", array("radius", "1")), {"cell 0"});
   refused(polydata(2, 1, two, "0 7", "2", "", array("radius", "1")), {"n.vtp"});
   refused(polydata(2, 0, two, "", "", "", ""), {"line"});
   EXPECT_THROW(read_vtp_network(folder_ / "absent.vtp", 1), InputError);
+}
+
+TEST_F(VtpNetwork, RefusesWhatCrashesVtk) {
+  const std::string two = "0 0 0 1 0 0", radius = array("radius", "1");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = polydata(2, 1, two, "0 1", "2", "", radius);
+    const auto place = text.find(from);
+    EXPECT_NE(place, std::string::npos) << from;
+    return text.replace(place, from.size(), to);
+  };
+  for (const std::string number : {"-1", "-2147483648"})
+    refused(with("NumberOfPoints=\"2\"", "NumberOfPoints=\"" + number + "\""), {"n.vtp", "VTK"});
+  for (const std::string number : {"4294967296", "99999999999999"})
+    refused(with("NumberOfVerts=\"0\"", "NumberOfVerts=\"" + number + "\""),
+            {"n.vtp", "VTK crashed on it", "tags"});
+  refused(with("Name=\"connectivity\" format=\"ascii\"", "Name=\"connectivity\" format=\"binary\""),
+          {"n.vtp"});
 }
 
 }  // namespace
