@@ -63,7 +63,8 @@ LOOKS_LIKE_RESULTS = {f"out/{name}": f"my {name}\n" for name in (
     "event_2024/history.csv", "event_2024/images/party_12.png")}
 
 FOLDERS = [
-    Fault("results over the input", 2, ["vessels.csv"], {"junctions.csv": JUNCTIONS, "vessels.csv": VESSELS}, NETWORK, ["run", "s.toml", "-o", ".", "--quiet"]),
+    Fault("results over the input", 2, ["vessels.csv"], {"junctions.csv": JUNCTIONS, "vessels.csv": VESSELS}, NETWORK, ["run", "s.toml", "-o", ".",
+                                                                                                                        "--quiet"]),
     Fault("a file of the user's where a result must go", 2, ["history.csv"], {**LOOKS_LIKE_RESULTS, "out/history.csv": "mine\n"}),
     Fault("files of the user's beside the results", 0, [], LOOKS_LIKE_RESULTS),
 ]
@@ -126,7 +127,8 @@ class FaultTable(unittest.TestCase):
         """Within 4 GB and 20 s of a processor."""
         with tempfile.TemporaryDirectory() as sessions:
             environment = {**os.environ, "OMPI_MCA_orte_tmpdir_base": sessions, **environment}
-            return subprocess.run(["sh", "-c", 'ulimit -v 4000000; ulimit -t 20; exec "$@"', "limits", RHEXIS, *arguments], cwd=folder, capture_output=True,
+            return subprocess.run(["sh", "-c", 'ulimit -v 4000000; ulimit -t 20; exec "$@"', "limits", RHEXIS, *arguments], cwd=folder,
+                                  capture_output=True,
                                   text=True, timeout=300, stdin=subprocess.DEVNULL, env=environment, check=False)
 
     def check_all(self, faults):
@@ -163,7 +165,8 @@ class FaultTable(unittest.TestCase):
                 damage(file)
                 file.flush()
                 damaged = file.id.get_file_image()
-            faults.append(Fault(name, 2, ["damaged.h5", said], {"damaged.h5": damaged}, command=["run", "s.toml", "-o", "out", "--quiet", "--restart", "damaged.h5"]))
+            faults.append(Fault(name, 2, ["damaged.h5", said], {"damaged.h5": damaged}, command=["run", "s.toml", "-o", "out", "--quiet", "--restart",
+                                                                                                 "damaged.h5"]))
         self.check_all(faults)
 
 

@@ -15,7 +15,8 @@ from study.results import differences, found_by, newest_checkpoint
 def checkpointed_scenes():
     """By name: files of a scene that leaves checkpoints before its end."""
     every = scenes.all_scenes()
-    return {name: scenes.with_checkpoints(every[scene], 8) for name, scene in (("vessel", "vessel.table"), ("two_way", "two_way"), ("cascade", "cascade"))}
+    chosen = {"vessel": "vessel.table", "two_way": "two_way", "cascade": "cascade"}
+    return {name: scenes.with_checkpoints(every[scene], 8) for name, scene in chosen.items()}
 
 
 class Original:

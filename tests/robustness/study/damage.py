@@ -108,7 +108,8 @@ def replace_attribute(random, path):
     """Another number, type or shape; a text where there was a number."""
     with h5py.File(path, "r+") as file:
         place, name = random.choice(attributes(file))
-        new = random.choice((random.choice(NUMBERS), random.choice(REALS), numpy.ones((3, 3)), numpy.zeros(100000 // 16), "text", "x" * 5000, numpy.array([], "f8"), numpy.float32(1)))
+        new = random.choice((random.choice(NUMBERS), random.choice(REALS), numpy.ones((3, 3)), numpy.zeros(100000 // 16), "text", "x" * 5000,
+                             numpy.array([], "f8"), numpy.float32(1)))
         del file[place].attrs[name]
         file[place].attrs[name] = new
         return [name, NUMBERS_OF_A_CHECKPOINT]
@@ -127,5 +128,6 @@ def change_text(random, path):
         return [name]
 
 
-KINDS = (flip_bits, flip_bits, overwrite, overwrite, truncate, extend, remove_dataset, rename_dataset, replace_dataset, replace_dataset, remove_attribute, replace_attribute,
+KINDS = (flip_bits, flip_bits, overwrite, overwrite, truncate, extend, remove_dataset, rename_dataset, replace_dataset, replace_dataset,
+         remove_attribute, replace_attribute,
          replace_attribute, change_text)

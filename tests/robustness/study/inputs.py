@@ -105,11 +105,11 @@ def takes_long(output):
     def highest(pattern):
         return max(numbers(pattern), default=1)
 
-    # Of a wall in seconds, unless in another unit; of a network whose vessels are few, nothing.
     time = re.search(r"^  time +(?:at most )?about ([\d.,]+) (\w+)", output, re.MULTILINE)
+    if time and (time.group(2) != "s" or float(time.group(1).replace(",", "")) > LARGEST_RUN_S):
+        return True
     cost = highest(r"particles +([\d,]+)") * highest(r"([\d,]+) steps") * highest(r"samples +([\d,]+)")
-    return bool(time and (time.group(2) != "s" or float(time.group(1).replace(",", "")) > LARGEST_RUN_S)) or cost > LARGEST_COST or highest(r"outputs +([\d,]+)") > 300 \
-        or highest(r"of (\d+) generations") > 16
+    return cost > LARGEST_COST or highest(r"outputs +([\d,]+)") > 300 or highest(r"of (\d+) generations") > 16
 
 
 def judge_results(run, check, folder, before, users):

@@ -13,16 +13,19 @@ ASSIGNMENT = re.compile(r"^([^\s=#\[]+)\s*=\s*(.*)$")
 NUMBERS = ("0", "-0.0", "-1", "1", "2", "0.5", "1e-300", "5e-324", "1e-9", "1e9", "1e18", "1e300", "1.7976931348623157e308", "1e309", "-1e300",
            "nan", "inf", "-inf", "+nan", "2147483647", "2147483648", "4294967296", "9223372036854775807", "9223372036854775808",
            "-9223372036854775808", "18446744073709551616", "0x7fffffff", "0b11", "0o17", "1_000", "1__0", "00", "1.", ".5", "1e", "1,5", "٣", "½")
-UNITS = ("m", "mm", "um", "nm", "km", "cm", "s", "ms", "ns", "us", "Pa", "kPa", "MPa", "mmHg", "GPa", "kg", "degC", "%", "", "1", "mm mm", "1/s", "m^2",
+UNITS = ("m", "mm", "um", "nm", "km", "cm", "s", "ms", "ns", "us", "Pa", "kPa", "MPa", "mmHg", "GPa", "kg", "degC", "%", "", "1", "mm mm", "1/s",
+         "m^2",
          "mm2", "m3/s", "Pa s/m3", "kg/m3", "furlong", "mm^999", "m-1", "K @ 273.15", "mm mm^-1 mm", "((((mm))))", "(" * 200 + "m", "lg(re 1 mW)",
          "mm since 2000-01-01", "um\u0000", "µm", "μm", "Ω", "mm;", "e", "m" * 3000, "2 mm", "hm", "Ym", "ym", "Pa-", "--m", "m/0", "m^0.5")
-VALUES = ("true", "false", "[]", "[[]]", "[[], []]", '""', "''", '" "', "{}", "{a = 1}", "1979-05-27", "1979-05-27T07:32:00Z", "07:32:00", "nan", "-inf",
+VALUES = ("true", "false", "[]", "[[]]", "[[], []]", '""', "''", '" "', "{}", "{a = 1}", "1979-05-27", "1979-05-27T07:32:00Z", "07:32:00", "nan",
+          "-inf",
           "0", "-1", "1e400", '"auto"', '"none"', '"0"', '"nan"', '"nan mm"', '"inf Pa"', '"1e400 mm"', '[1, "a"]', "[1, [2, [3]]]", "[nan]", "[inf, inf]",
           '["0 ms", "0 kPa"]', '[["0 ms", "0 kPa"]]', '[["0 ms", "0 kPa"], ["0 ms", "1 kPa"]]', '[["1 ms", "1 kPa"], ["0 ms", "1 kPa"]]',
           '[["0 ms", "1 kPa", "2 kPa"]]', '[["0 ms"], ["1 ms"]]', '[["nan s", "1 kPa"], ["1 s", "1 kPa"]]', "[" * 300 + "]" * 300, '"' + "x" * 70000 + '"',
           '"\\u0000"', '"\\uD800"', '"""a\nb"""', '"é"', '"\\"', '"../../../etc/passwd"', '"/dev/zero"', '"/dev/null"', '"."', '["."]', '["x.csv", "y.csv"]',
           "9223372036854775807", "-9223372036854775808", '"9e99 m"', '"1e-300 m"')
-PIECES = ("é", "\u202e", "\ufeff", "\u0000", "\u2028", "🫀", "\ud7ff", "\x1b[31m", "\r", "\t", "\n", "\\", '"', "'", "#", "=", "[", "]", "[[", "}", ",", ";", ".", "\n[", '"""')
+PIECES = ("é", "\u202e", "\ufeff", "\u0000", "\u2028", "🫀", "\ud7ff", "\x1b[31m", "\r", "\t", "\n",
+          "\\", '"', "'", "#", "=", "[", "]", "[[", "}", ",", ";", ".", "\n[", '"""')
 
 
 def mutate_number(random, text):
@@ -149,7 +152,8 @@ def header(random, text):
     """A section is named twice, or otherwise, or is a list of sections, or of another section."""
     def replace(match):
         name = match.group(1)
-        return random.choice((f"[[{name}]]", f"[{name}.more]", f"[{name}]\n[{name}]", f"[{name.upper()}]", f'["{name}"]', f"[ {name} ]", f"[{name}", f"{name} = 1",
+        return random.choice((f"[[{name}]]", f"[{name}.more]", f"[{name}]\n[{name}]", f"[{name.upper()}]", f'["{name}"]', f"[ {name} ]", f"[{name}",
+                              f"{name} = 1",
                               f"[[{name}]]\n[[{name}]]", f"[{name}é]", f"[}}{name}]", "[]", f'["{name}.x"]', f"{name}.key = 1\n[{name}]"))
     return one_match(random, re.compile(r"^\[+(\w+)\]+$", re.MULTILINE), text, replace)
 
@@ -157,7 +161,8 @@ def header(random, text):
 def key_name(random, text):
     def replace(match):
         name = match.group(1)
-        return random.choice((name + "s", name.upper(), name[:-1], f'"{name}"', f"'{name}'", f"a.{name}", f"{name}.b", "é" + name, name + "é", '""', name.replace("_", "-"),
+        return random.choice((name + "s", name.upper(), name[:-1], f'"{name}"', f"'{name}'", f"a.{name}", f"{name}.b", "é" + name, name + "é", '""',
+                              name.replace("_", "-"),
                               f"{name} {name}", f"{name} = {name}")) + " ="
     return one_match(random, re.compile(r"^(\w+) *=", re.MULTILINE), text, replace)
 
@@ -174,38 +179,46 @@ def csv_cell(random, text):
         cells = line.split(",")
         place = random.randrange(len(cells))
         anything = [cell for row in text.split("\n") for cell in row.split(",")]
-        cells[place] = random.choice(("", '"', '"a""b"', '"a,b"', mutate_number(random, cells[place]), random.choice(anything), " " + cells[place] + " ", cells[place] + ",",
+        cells[place] = random.choice(("", '"', '"a""b"', '"a,b"', mutate_number(random, cells[place]), random.choice(anything),
+                                      " " + cells[place] + " ", cells[place] + ",",
                                       '"unclosed', "in", "x" * 5000))
         return ",".join(cells)
     return one_line(random, text, replace)
 
 
 def csv_separator(random, text):
-    return text.replace(",", random.choice((";", "\t", " ", "|", ",,"))) if random.random() < 0.5 else text.replace("\n", random.choice(("\r\n", "\r", "\n\n")))
+    old, others = random.choice(((",", (";", "\t", " ", "|", ",,")), ("\n", ("\r\n", "\r", "\n\n"))))
+    return text.replace(old, random.choice(others))
 
 
 def json_token(random, text):
     """Another JSON value, or a name lost or doubled."""
-    new = random.choice(("null", "true", "[]", "{}", '""', "-1", "1e999", "1e400", "0", '"in"', "[" * 2000, "{", "}", "]", "NaN", "Infinity", '"\\ud800"', '{"a": {"a": {"a": 1}}}'))
+    new = random.choice(("null", "true", "[]", "{}", '""', "-1", "1e999", "1e400", "0", '"in"', "[" * 2000, "{", "}", "]", "NaN", "Infinity",
+                         '"\\ud800"', '{"a": {"a": {"a": 1}}}'))
     return one_match(random, re.compile(r'"[^"\n]*"|[-\d.]+|[\[\]{},:]|null'), text, lambda match: new)
+
+
+MANIFEST_LINES = ("file ../scene.toml", "file /tmp/x", "folder ..", "folder .", "file mine.txt/..", "file", "run", "run x", "file a\tb",
+                  "file images/../../scene.toml", "rhexis results 2", "folder images/..", "file " + "x" * 5000)
 
 
 def manifest_line(random, text):
     """A line more, in the manifest of a results folder."""
     rows = text.split("\n")
-    new = random.choice(("file ../scene.toml", "file /tmp/x", "folder ..", "folder .", "file mine.txt/..", "file", "run", "run x", "file a\tb", "file images/../../scene.toml", "rhexis results 2", "folder images/..",
-                         "file " + "x" * 5000))
-    rows.insert(random.randrange(len(rows) + 1), new)
+    rows.insert(random.randrange(len(rows) + 1), random.choice(MANIFEST_LINES))
     return "\n".join(rows)
+
+
+XML_VALUES = ("0", "-1", "1", "2", "7", "4000000000", "99999999999999", "-2000000000", "Float32", "Int8", "UInt64", "String", "ascii", "binary",
+              "appended", "BigEndian", "", "radius", "PolyData", "nan")
+XML_TAGS = ("", "<Piece", "</Piece", "<Lines", "</Lines", "<Verts", "<Polys", "<AppendedData", "<DataArray")
 
 
 def xml_token(random, text):
     """An attribute or a name of VTK's XML, otherwise."""
     if random.random() < 0.6:
-        new = random.choice(("0", "-1", "1", "2", "7", "4000000000", "99999999999999", "-2000000000", "Float32", "Int8", "UInt64", "String", "ascii", "binary", "appended", "BigEndian", "UInt64",
-                             "", "radius", "PolyData", "nan"))
-        return one_match(random, re.compile(r'="[^"\n]*"'), text, lambda match: f'="{new}"')
-    return one_match(random, re.compile(r"</?\w+|/>|>"), text, lambda match: random.choice(("", "<Piece", "</Piece", "<Lines", "</Lines", "<Verts", "<Polys", "<AppendedData", "<DataArray")))
+        return one_match(random, re.compile(r'="[^"\n]*"'), text, lambda match: f'="{random.choice(XML_VALUES)}"')
+    return one_match(random, re.compile(r"</?\w+|/>|>"), text, lambda match: random.choice(XML_TAGS))
 
 
 def bytes_anywhere(random, data):
@@ -259,12 +272,19 @@ def other_word(random, text, keys):
     return "\n".join(rows)
 
 
+def new_value(random, words):
+    """Anything for a key that has these words: one of them, most often."""
+    quantity = f"{random.choice(NUMBERS)} {random.choice(UNITS)}"
+    return random.choice((random.choice(VALUES), random.choice(NUMBERS), f'"{quantity}"', *[random.choice(words or VALUES)] * 3))
+
+
 def add_key(random, text, keys):
-    """One of the program's keys, with the default, an allowed word, or anything as its value, where its section is or at the end."""
+    """One of the program's keys, most often of a section that the file has, where that begins or at the end."""
     sections = set(re.findall(r"^\[+(\w+)\]+$", text, re.MULTILINE))
-    key = random.choice([key for key in sorted(keys) if key.split(".")[0] in sections] or sorted(keys)) if random.random() < 0.7 else random.choice(sorted(keys))
+    fitting = [key for key in sorted(keys) if key.split(".")[0] in sections]
+    key = random.choice(fitting if fitting and random.random() < 0.7 else sorted(keys))
     section, name = key.split(".")
-    new = random.choice((random.choice(VALUES), random.choice(NUMBERS), f'"{random.choice(NUMBERS)} {random.choice(UNITS)}"', *([random.choice(keys[key])] * 3 if keys[key] else [])))
+    new = new_value(random, keys[key])
     place = re.search(rf"^\[\[?{section}\]\]?$", text, re.MULTILINE)
     if place:
         return f"{text[: place.end()]}\n{name} = {new}{text[place.end():]}"
@@ -294,11 +314,13 @@ def mutate_file(random, name, text, keys):
     return data, told
 
 
+ARGUMENTS = (*["{key}={value}"] * 8, "{key}", "={value}", "{key}=", "{key}=={value}", "{key}={value}={value}", "[{key}]={value}", " {key} = {value}",
+             "spot[1].{name}={value}", "spot[99999999999].radius={value}", "{name}={value}", "x.{key}={value}", "{key}\n={value}", "{key}='{value}'",
+             '{key}="{value}')
+
+
 def argument(random, keys):
     """What may follow --set."""
     key = random.choice(sorted(keys))
-    new = random.choice((random.choice(VALUES), random.choice(NUMBERS), f"{random.choice(NUMBERS)} {random.choice(UNITS)}", *([random.choice(keys[key])] * 2 if keys[key] else [])))
-    form = random.choice(("{key}={value}",) * 8 + ("{key}", "={value}", "{key}=", "{key}=={value}", "{key}={value}={value}", "[{key}]={value}", " {key} = {value}", "spot[1].{name}={value}", "spot[99999999999].radius={value}",
-                                                   "{name}={value}", "x.{key}={value}", "{key}\n={value}", "{key}='{value}'", '{key}="{value}'))
-    text = form.format(key=key, name=key.split(".")[1], value=new)
+    text = random.choice(ARGUMENTS).format(key=key, name=key.split(".")[1], value=new_value(random, keys[key]))
     return text.replace("\0", "\\0")[:100000]  # the system passes no NUL
