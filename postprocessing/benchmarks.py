@@ -27,7 +27,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAMS = ("bench_machine", "bench_bonds", "bench_network", "bench_output")
 SAMPLES, QUICK_SAMPLES = 31, 3
 PICTURE_ROUNDS, QUICK_PICTURE_ROUNDS = 4, 1
-QUICK_FILTER = "-rows=1000|across=10|tier=explicit|memory="  # all but these
+QUICK_FILTER = "-rows=1000|across=10|tier=explicit|memory=|outputs="  # all but these
 
 
 def run_program(program, output, quick):
@@ -118,6 +118,10 @@ def machine_row(c):
     return (name, c["threads"], number(c["rate"], 1e-9), number(c["best"], 1e-9), "Gflop/s" if kind == "fma" else "GB/s")
 
 
+def series_row(c):
+    return (c["format"], c["outputs"], number(c["ms_to_lay_out"], 1e-3), *(number(c[f"ms_at_{at}"]) for at in (10, 1000, 10000)))
+
+
 def pictures_row(c):
     return (number(c["s_per_picture"]), number(c["steps_per_picture"]), number(c["start_s"]), c["threads"])
 
@@ -127,6 +131,7 @@ TABLES = (
     ("bonds", ("wall", "bonds", "law", "damage", "threads", "Gbonds/s", "Gflop/s", "ns a particle and step", "of FMA peak", "of arithmetic"), bond_row),
     ("network", ("tier", "network", "vessels", "threads", "million vessels/s", "ns a vessel", "of FMA peak (implicit), of memory (explicit)"), network_row),
     ("output", ("frame", "particles", "MB", "ms", "MB/s", "of plain writing (fields: of FMA peak)"), output_row),
+    ("series", ("format", "outputs of 100 particles", "s to lay out", "ms of the 10th", "of the 1,000th", "of the 10,000th"), series_row),
     ("pictures", ("s a picture", "steps in that time", "ParaView's start, s", "threads"), pictures_row),
 )
 

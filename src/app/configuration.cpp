@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "app/scene_keys.hpp"
+#include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "ensemble/walls.hpp"
@@ -114,7 +117,21 @@ void resolve_vessel(Configuration& c) {
   settle_time_step(c);
   if (c.is_ensemble()) return;
   if (c.output.fields.empty()) no_effect(c, "output.precision", "without output.fields");
+  if (c.output.fields.empty() && !c.is_coupled()) no_effect(c, "output.format", "without output.fields");
   c.output_steps = output::planned_steps(c.output, c.steps, c.time_step);
+}
+
+/// Who builds with a ParaView most likely looks at the files with it.
+void warn_of_an_old_paraview(Configuration& c) {
+  const std::string version = paraview_version();
+  int major = 0, minor = 0;
+  if (std::sscanf(version.c_str(), "%d.%d", &major, &minor) != 2 ||
+      std::pair(major, minor) >= std::pair(5, 12))
+    return;
+  c.warnings.push_back(
+      "output.format = \"" + c.output.format + "\": ParaView " + version +
+      ", which Rhexis was built with, cannot read VTKHDF files of particles and networks; 5.12 "
+      "and later can");
 }
 
 /// Where results are told by pressure, it should be one that walls have seen.
@@ -309,6 +326,8 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
       resolve_network(c, comm);
       if (c.is_coupled()) resolve_coupling(c);
     }
+    const bool stores = c.model == "vessel" ? !c.output.fields.empty() : !c.is_ensemble();
+    if (stores && c.output.format != "xdmf") warn_of_an_old_paraview(c);
     if (c.insitu.enabled) {
       find_files(c.insitu.scripts, "insitu.scripts", "Catalyst script", c.file, comm);
       parallel::on_root<InputError>(comm, [&] { refuse_what_is_no_script(c.insitu.scripts); });

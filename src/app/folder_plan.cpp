@@ -15,7 +15,7 @@ void append(Names& names, const Names& more, const std::string& folder = "") {
 
 /// Those of network_files.hpp.
 Names network_names(const Configuration& c) {
-  Names names{"network.xdmf", "network.h5"};
+  Names names = output::series_files("network", output::formats_of(c.output));
   const bool implicit =
       c.network.source == "tree" && c.network.tier != "explicit" && c.network.tier != "distributed";
   if (implicit && c.network.statistics) append(names, {"generations.csv", "histograms.csv"});
@@ -87,8 +87,7 @@ std::string checkpoint_name(long step) {
 output::FutureFiles files_of_steps(const Configuration& c, long first_step, bool restarts) {
   output::FutureFiles files;
   if (!c.output.fields.empty()) {
-    const std::string series = series_name(first_step, restarts);
-    files.names = {series + ".h5", series + ".xdmf"};
+    files.names = output::series_files(series_name(first_step, restarts), output::formats_of(c.output));
   }
   if (c.coupling.restartable()) {
     files.may_be_written = [first_step, last_step = c.steps](const std::string& name) {

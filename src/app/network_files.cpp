@@ -76,13 +76,14 @@ void write_lines(const Configuration& c, NetworkSolution& solution, const output
                            {"inflow", "m3/s", solution.inflow}});
   const auto fields = solution.lines.fields();
   output::LineSeriesPlan plan;
-  for (const char* name : {"network.h5", "network.xdmf"}) folder.claim(name);
   plan.directory = folder.path();
   plan.title = c.title;
   plan.version = version();
   plan.fields.assign(fields.begin(), fields.end());
   plan.steps = {0};
   plan.precision = output::Precision::double_precision;
+  plan.formats = output::formats_of(c.output);
+  for (const std::string& name : output::series_files("network", plan.formats)) folder.claim(name);
   output::LineSeries(plan, solution.lines, comm).write(solution.lines);
   if (!c.network.vtp) return;
   parallel::together(comm, [&] {

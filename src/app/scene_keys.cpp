@@ -95,6 +95,7 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
                                                     {"ensemble", declare_ensemble(c)}};
   for (auto& [name, keys] : models) {
     if (name == "vessel") append(keys, peridynamics::declare_start(c.vessel));
+    if (name == "network") keys.push_back(output::declare_format(c.output));
     if (name != "ensemble") append(keys, insitu::declare(c.insitu));
   }
   std::string model = "vessel";

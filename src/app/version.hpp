@@ -9,6 +9,8 @@ std::string version();
 std::string commit();
 /// "GNU 12.2.0, Release, AVX3_DL": compiler, kind of build, vectors.
 std::string compiler();
+/// "5.11.0": the ParaView that pictures are made with; empty where there is none.
+std::string paraview_version();
 /// Version, commit, compiler, libraries: the text of `rhexis --version`.
 std::string build_description();
 

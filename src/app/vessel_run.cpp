@@ -101,11 +101,12 @@ void VesselRun::open_results() {
   output::PointSeriesPlan plan;
   plan.directory = folder_->path();
   plan.basename = series_name(first_step_, restarts);
-  for (const char* ending : {".h5", ".xdmf"}) folder_->claim(plan.basename + ending);
   plan.title = c_.title;
   plan.version = version();
-  plan.precision = c_.output.precision == "double" ? output::Precision::double_precision
-                                                   : output::Precision::single_precision;
+  plan.precision = output::precision_of(c_.output);
+  plan.formats = output::formats_of(c_.output);
+  for (const std::string& name : output::series_files(plan.basename, plan.formats)) folder_->claim(name);
+  plan.annotations = {"pressure"};
   for (const FieldInfo& field : peridynamics::ParticleSource::all_fields()) {
     if (std::find(c_.output.fields.begin(), c_.output.fields.end(), field.name) != c_.output.fields.end()) {
       plan.fields.push_back(field);

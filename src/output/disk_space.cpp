@@ -18,28 +18,40 @@ namespace {
   throw RunError(fmt::format("{}: cannot {}: {}", path.string(), doing, std::strerror(error)));
 }
 
-struct OpenFile {
-  explicit OpenFile(const std::filesystem::path& path)
-      : descriptor(open(path.c_str(), O_WRONLY | O_CLOEXEC)) {
-    if (descriptor < 0) fail(path, "open the file", errno);
-  }
-  ~OpenFile() { close(descriptor); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  int descriptor;
-};
-
 }  // namespace
 
+FileInPlace::FileInPlace(const std::filesystem::path& path)
+    : path_(path), descriptor_(open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW)) {
+  if (descriptor_ < 0) fail(path_, "open the file", errno);
+}
+
+FileInPlace::~FileInPlace() {
+  ::close(descriptor_);
+}
+
+void FileInPlace::write(std::int64_t offset, std::string_view bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), offset);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail(path_, "write the file", errno);
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    offset += written;
+  }
+}
+
+void FileInPlace::sync() const {
+  if (fsync(descriptor_) != 0) fail(path_, "write the file", errno);
+}
+
 void reserve_space(const std::filesystem::path& path, std::span<const ByteRange> ranges) {
-  const OpenFile file(path);
+  const FileInPlace file(path);
   int error = 0;
   for (std::size_t i = 0; error == 0 && i < ranges.size(); ++i) {
-    if (ranges[i].count > 0) error = posix_fallocate(file.descriptor, ranges[i].offset, ranges[i].count);
+    if (ranges[i].count > 0) error = posix_fallocate(file.descriptor(), ranges[i].offset, ranges[i].count);
   }
   if (error == 0) return;
   for (const ByteRange& range : ranges) {
-    fallocate(file.descriptor, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, range.offset, range.count);
+    fallocate(file.descriptor(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, range.offset, range.count);
   }
   fail(path, "reserve disk space", error);
 }
@@ -62,8 +74,7 @@ SpareSpace::~SpareSpace() {
 }
 
 void sync_to_disk(const std::filesystem::path& path) {
-  const OpenFile file(path);
-  if (fsync(file.descriptor) != 0) fail(path, "write the file", errno);
+  FileInPlace(path).sync();
 }
 
 }  // namespace rhexis::output

@@ -1,15 +1,35 @@
-/// Disk space that is had before it is needed, and data that are known to be on disk.
+/// Files changed in place: disk space that is had before it is needed, and data that are known to be on disk.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace rhexis::output {
 
 /// A part of a file.
 struct ByteRange {
   std::int64_t offset = 0, count = 0;
+};
+
+/// An existing file, open to be changed in place, at the end of no symbolic link. Every call throws RunError
+/// that names the file and the reason. Local to the calling rank.
+class FileInPlace {
+ public:
+  explicit FileInPlace(const std::filesystem::path& path);
+  ~FileInPlace();
+  FileInPlace(const FileInPlace&) = delete;
+  FileInPlace& operator=(const FileInPlace&) = delete;
+
+  void write(std::int64_t offset, std::string_view bytes) const;
+  /// Waits until all that was written to the file is on disk.
+  void sync() const;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
 };
 
 /// Reserves disk space for these parts of an existing file; their content stays. Throws RunError if the disk

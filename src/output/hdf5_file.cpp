@@ -148,13 +148,32 @@ ByteRange Hdf5File::bytes_of(const std::string& name) const {
   return {static_cast<std::int64_t>(offset), static_cast<std::int64_t>(H5Dget_storage_size(dataset))};
 }
 
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, hid_t type,
+void Hdf5File::write_attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,
                                const void* value) {
-  const Hdf5Handle space = own(H5Screate(H5S_SCALAR), H5Sclose, "describe attribute", name);
   const Hdf5Handle attribute = own(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space,
                                                      H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                                    H5Aclose, "create attribute", name);
   require(H5Awrite(attribute, type, value) >= 0, "write attribute", name);
+}
+
+void Hdf5File::write_attribute(const std::string& object, const std::string& name, hid_t type,
+                               const void* value) {
+  const Hdf5Handle space = own(H5Screate(H5S_SCALAR), H5Sclose, "describe attribute", name);
+  write_attribute(object, name, type, space, value);
+}
+
+void Hdf5File::write_numbers(const std::string& object, const std::string& name,
+                             const std::vector<std::int64_t>& numbers) {
+  const hsize_t count = numbers.size();
+  const Hdf5Handle space = own(H5Screate_simple(1, &count, nullptr), H5Sclose, "describe attribute", name);
+  write_attribute(object, name, H5T_NATIVE_INT64, space, numbers.data());
+}
+
+void Hdf5File::write_ascii(const std::string& object, const std::string& name, const std::string& text) {
+  const Hdf5Handle type = own(H5Tcopy(H5T_C_S1), H5Tclose, "describe attribute", name);
+  require(H5Tset_size(type, text.size()) >= 0 && H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0,
+          "describe attribute", name);
+  write_attribute(object, name, type, text.data());
 }
 
 void Hdf5File::write_text(const std::string& object, const std::string& name, const std::string& text) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -74,6 +75,10 @@ class Hdf5File {
   /// Attributes of a group or a data set; the same value on every rank.
   void write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value);
   void write_text(const std::string& object, const std::string& name, const std::string& text);
+  /// As VTKHDF wants them: characters without an end, and numbers in one dimension.
+  void write_ascii(const std::string& object, const std::string& name, const std::string& text);
+  void write_numbers(const std::string& object, const std::string& name,
+                     const std::vector<std::int64_t>& numbers);
   bool has_attribute(const std::string& object, const std::string& name) const;
   void read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const;
   std::string read_text(const std::string& object, const std::string& name) const;
@@ -85,6 +90,8 @@ class Hdf5File {
   void require(bool succeeded, std::string_view doing, std::string_view object) const;
   Hdf5Handle own(hid_t id, Hdf5Handle::Close closer, std::string_view doing, std::string_view object) const;
   Hdf5Handle open_dataset(const std::string& name) const;
+  void write_attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,
+                       const void* value);
   Hdf5Handle select(const Slab& slab, const std::string& name) const;
 
   std::filesystem::path path_;

@@ -37,12 +37,10 @@ SeriesLayout layout_of(LineSource& source, const parallel::Communicator& communi
   return layout;
 }
 
-std::vector<StoredField> stored(const std::vector<FieldInfo>& fields) {
-  std::vector<StoredField> result;
-  for (const FieldInfo& field : fields) {
-    result.push_back({std::string(field.name), std::string(field.unit), field.components, field.centring});
-  }
-  return result;
+SeriesPlan with_annotations(SeriesPlan plan, const LineSource& source) {
+  plan.annotations.clear();
+  for (const Annotation& note : source.annotations()) plan.annotations.emplace_back(note.name);
+  return plan;
 }
 
 /// The source's connectivity in the numbering of all ranks.
@@ -60,42 +58,22 @@ std::vector<std::int64_t> global_ends(LineSource& source, const PointLayout& poi
 
 }  // namespace
 
-LineSeries::LineSeries(const LineSeriesPlan& plan, LineSource& source, parallel::Communicator communicator)
-    : layout_(layout_of(source, communicator)),
-      series_(named(plan, "network"), layout_, stored(plan.fields),
-              {{.name = "/position", .unit = "m", .components = 3},
-               {.name = "/connectivity",
-                .type = FixedDataset::Type::integer,
-                .components = 2,
-                .centring = Centring::cell}},
-              communicator) {
+LineSeries::LineSeries(const LineSeriesPlan& plan, LineSource& source, parallel::Communicator communicator) {
+  const SeriesLayout layout = layout_of(source, communicator);
+  formats_ = open_series(named(with_annotations(plan, source), "network"), layout, SeriesKind::lines,
+                         stored(plan.fields), communicator);
   std::vector<std::int64_t> ends;
-  parallel::together<RunError>(communicator, [&] { ends = global_ends(source, layout_.points); });
-  series_.write_fixed("/connectivity", ends);
-  series_.write_fixed("/position", source.positions());
+  parallel::together<RunError>(communicator, [&] { ends = global_ends(source, layout.points); });
+  for (const auto& series : formats_) {
+    series->write_connectivity(ends);
+    series->write_positions(source.positions());
+  }
 }
 
 void LineSeries::write(LineSource& source) {
-  series_.write(
-      source.step(), [&](const StoredField& field) { return source.field(field.name); },
-      [&](const std::string& place) { return xdmf_grid(source, place); });
-}
-
-std::string LineSeries::xdmf_grid(const LineSource& source, const std::string& place) const {
-  return fmt::format(
-             R"(      <Grid Name="network" GridType="Uniform">
-        <Time Value="{}"/>
-        <Information Name="step" Value="{}"/>
-        <Topology TopologyType="Polyline" NumberOfElements="{}" NodesPerElement="2">
-          {}
-        </Topology>
-        <Geometry GeometryType="XYZ">{}</Geometry>
-)",
-             source.time_s(), source.step(), layout_.cells.global_count(),
-             series_.xdmf_integers("/connectivity", 2, Centring::cell),
-             series_.xdmf_reals("/position", 3, Centring::point)) +
-         series_.xdmf_attributes(place, "") + FieldSeries::xdmf_annotations(source.annotations()) +
-         "      </Grid>\n";
+  for (const auto& series : formats_) {
+    series->write(moment_of(source), [&](const StoredField& field) { return source.field(field.name); });
+  }
 }
 
 }  // namespace rhexis::output

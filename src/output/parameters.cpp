@@ -23,7 +23,7 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields) {
        &p.fields,
        "",
        "[" + all + "]",
-       "Fields stored in particles.h5 beside the position; an empty list stores no particles.",
+       "Fields stored of every particle beside its position; an empty list stores no particles.",
        "Sec. 3.4",
        {},
        fields},
@@ -31,10 +31,11 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields) {
        &p.precision,
        "",
        "\"single\"",
-       "Of the values in particles.h5.",
+       "Of the values stored of particles.",
        "",
        {},
        {"single", "double"}},
+      declare_format(p),
       {"output.checkpoint_every", &p.checkpoint_every, "1", "0",
        "Steps between checkpoints for --restart; 0: only when a run is interrupted.", "",
        Range::not_negative()},
@@ -42,6 +43,31 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields) {
       only_with({"output.movie", {"true"}}, {"output.frames_per_second", &p.frames_per_second, "1", "12",
                                              "Of the movie.", "", Range::between(1, 120)}),
   };
+}
+
+Parameter declare_format(Parameters& p) {
+  return {
+      "output.format",
+      &p.format,
+      "",
+      "\"xdmf\"",
+      "How particles and networks are stored: as particles.h5 and network.h5 with .xdmf files beside them, "
+      "which ParaView reads in any version; as particles.vtkhdf and network.vtkhdf, poly data over time, "
+      "which it reads from version 5.12 on (Debian 13 has 5.13, Debian 12 has 5.11); or as both.",
+      "",
+      {},
+      {"xdmf", "vtkhdf", "both"}};
+}
+
+Precision precision_of(const Parameters& p) {
+  return p.precision == "double" ? Precision::double_precision : Precision::single_precision;
+}
+
+std::vector<SeriesFormat> formats_of(const Parameters& p) {
+  std::vector<SeriesFormat> formats;
+  if (p.format != "vtkhdf") formats.push_back(SeriesFormat::xdmf);
+  if (p.format != "xdmf") formats.push_back(SeriesFormat::vtkhdf);
+  return formats;
 }
 
 std::vector<long> planned_steps(const Parameters& p, long steps, double time_step) {

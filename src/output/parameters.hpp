@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "output/series_plan.hpp"
 
 namespace rhexis::output {
 
@@ -15,6 +16,7 @@ struct Parameters {
   std::optional<double> every_time;  ///< s
   std::vector<std::string> fields;
   std::string precision;  ///< "single" | "double"
+  std::string format;     ///< "xdmf" | "vtkhdf" | "both"
   std::int64_t checkpoint_every = 0;
   bool movie = true;
   double frames_per_second = 0;
@@ -22,6 +24,13 @@ struct Parameters {
 
 /// The keys, bound to `p`; `fields` are the names that output.fields may list.
 ParameterList declare(Parameters& p, std::vector<std::string> fields);
+
+/// The one key, of those, that says how a network is stored as well.
+Parameter declare_format(Parameters& p);
+
+/// What the keys say of a series.
+Precision precision_of(const Parameters& p);
+std::vector<SeriesFormat> formats_of(const Parameters& p);
 
 /// Steps at which output is due, ascending, with the first (0) and the last (`steps`). Throws InputError
 /// where every_steps and every_time are both given.

@@ -1,5 +1,6 @@
 // What a frame of the paper's vessel costs: its fields evaluated, forces included, which the next step then
-// has; stored as particles; stored as a checkpoint.
+// has; stored as particles; stored as a checkpoint. And what an output of a tiny body costs when it is the
+// 10th, 1,000th and 10,000th of a run: where the files are, not what is in them.
 //
 // of_peak: of what is written, bytes/s over those of writing as many bytes to a plain file in the same
 // folder, in place of earlier ones, and waiting until they are on disk; of the fields, flop/s counted as for
@@ -103,6 +104,63 @@ void particles(benchmark::State& state, int rows, int samples, const std::filesy
   });
 }
 
+/// 100 particles with six fields, beside positions, whose values nobody looks at.
+class TinySource : public PointSource {
+ public:
+  void move_on() { ++step_; }
+  long step() const override { return step_; }
+  double time_s() const override { return 1e-7 * static_cast<double>(step_); }
+  const PointLayout& layout() const override { return layout_; }
+  std::span<const FieldInfo> fields() const override { return infos; }
+  FieldView positions() override { return view_of({"position", "m", 3}); }
+  FieldView field(std::string_view name) override {
+    return view_of(*std::find_if(infos.begin(), infos.end(), [&](const auto& i) { return i.name == name; }));
+  }
+  std::vector<Annotation> annotations() const override { return {{"pressure", "Pa", 1.0 / 3 * time_s()}}; }
+
+ private:
+  static constexpr std::array<FieldInfo, 6> infos = {
+      FieldInfo{"displacement", "m", 3},     FieldInfo{"velocity", "m/s", 3},
+      FieldInfo{"force_density", "N/m3", 3}, FieldInfo{"energy", "J/m3", 1},
+      FieldInfo{"damage", "1", 1},           FieldInfo{"stretch", "1", 1}};
+  FieldView view_of(const FieldInfo& info) const {
+    return {info, {values_.data(), values_.data(), values_.data()}, values_.size()};
+  }
+  PointLayout layout_{
+      .columns = 10, .rows = 10, .first_column = 0, .column_count = 10, .first_row = 0, .row_count = 10};
+  std::vector<double> values_ = std::vector<double>(100, 1.0);
+  long step_ = 0;
+};
+
+void long_series(benchmark::State& state, long outputs, output::SeriesFormat format,
+                 const std::filesystem::path& scratch) {
+  const Folder folder(scratch);
+  TinySource source;
+  output::PointSeriesPlan plan;
+  plan.directory = folder.path;
+  for (const FieldInfo& field : source.fields()) plan.fields.push_back(field);
+  for (long step = 0; step < outputs; ++step) plan.steps.push_back(step);
+  plan.annotations = {"pressure"};
+  plan.formats = {format};
+  const double start = now(1);
+  output::PointSeries series(plan, source.layout(), test::self());
+  state.counters["ms_to_lay_out"] = 1e3 * (now(1) - start);
+  std::vector<double> seconds;
+  for ([[maybe_unused]] auto _ : state) {
+    const auto begin = std::chrono::steady_clock::now();
+    series.write(source);
+    series.finish();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    state.SetIterationTime(seconds.back());
+    source.move_on();
+  }
+  for (const std::size_t at : {10, 1000, 10000}) {
+    if (at > seconds.size()) break;
+    const auto end = seconds.begin() + static_cast<std::ptrdiff_t>(at);
+    state.counters["ms_at_" + std::to_string(at)] = 1e3 * median({end - 10, end});
+  }
+}
+
 void checkpoint(benchmark::State& state, int rows, const std::filesystem::path& scratch) {
   const Folder folder(scratch);
   const auto body = body_of(rows);
@@ -127,6 +185,14 @@ void checkpoint(benchmark::State& state, int rows, const std::filesystem::path& 
 }  // namespace
 
 void add_cases(const Options& options) {
+  for (const auto& [name, format] :
+       {std::pair("xdmf", output::SeriesFormat::xdmf), std::pair("vtkhdf", output::SeriesFormat::vtkhdf)}) {
+    const int outputs = 10000;
+    add_case(std::string("series/format=") + name + "/outputs=" + std::to_string(outputs), outputs,
+             [=, format = format](benchmark::State& state) {
+               long_series(state, outputs, format, options.scratch);
+             });
+  }
   for (const int rows : {100, 1000}) {
     const std::string end = "/rows=" + std::to_string(rows);
     for (const int threads : std::set{1, omp_get_num_procs()}) {

@@ -27,6 +27,8 @@ TREE = {**THEIRS, "name": "network/tier=implicit/generations=26/way=up/threads=1
         "vessels": 134217726, "vessels_per_s": 4.08e8, "ns_per_vessel": 2.451, "of_peak": 0.067}
 FRAME = {**THEIRS, "name": "output/frame=particles/rows=100/iterations:15/manual_time",
          "particles": 54800, "bytes": 3068800, "bytes_per_s": 1.71e8, "ms_per_frame": 17.95, "of_peak": 0.449}
+SERIES = {**THEIRS, "name": "series/format=xdmf/outputs=10000/iterations:10000/manual_time",
+          "ms_to_lay_out": 4941.0, "ms_at_10": 0.4221, "ms_at_1000": 0.3114, "ms_at_10000": 0.3281}
 MACHINE = {**THEIRS, "name": "machine/load=L1/threads=2/iterations:15/manual_time", "rate": 6.33e11, "best": 6.57e11}
 
 
@@ -45,12 +47,13 @@ class Table(unittest.TestCase):
         self.assertNotIn("real_time", case)
 
     def test_report(self):
-        lines = benchmarks.report(results(BONDS, TREE, FRAME, MACHINE)).splitlines()
+        lines = benchmarks.report(results(BONDS, TREE, FRAME, SERIES, MACHINE)).splitlines()
         self.assertIn("load 0.1 before and 1.2 after", lines[0])
         self.assertIn("L1 data 48 KiB, 16 GiB", lines[0])
         for row in ("| lattice 5, 104 rows, scattered | single | pmb | cracked 75 % | 2 | 1.23 | 43.2 | 80.1 | 25 % | 4.6 % |",
                     "| implicit | 26 generations, up | 134,217,726 | 1 | 408 | 2.45 | 6.7 % |",
                     "| particles | 54,800 | 3.07 | 17.9 | 171 | 45 % |",
+                    "| xdmf | 10000 | 4.94 | 0.422 | 0.311 | 0.328 |",
                     "| loads from L1 | 2 | 633 | 657 | GB/s |"):
             self.assertIn(row, lines)
 

@@ -1,5 +1,5 @@
-"""ParaView's three XDMF readers read the series of write_sample_series (argv[1]) and write_sample_lines (argv[2]):
-steps, cells, values.
+"""ParaView's three XDMF readers, and its VTKHDF reader from 5.12 on, read the series of write_sample_series (argv[1]) and
+write_sample_lines (argv[2]): steps, cells, values.
 """
 
 import os
@@ -76,9 +76,13 @@ def check_lines(reader_name, path):
             assert values.tolist() == expected(field, components, step, count), (reader_name, field, step)
 
 
-for program, check, file in ((sys.argv[1], check_points, "particles.xdmf"), (sys.argv[2], check_lines, "network.xdmf")):
+READERS = [("XDMFReader", ".xdmf"), ("Xdmf3ReaderS", ".xdmf"), ("Xdmf3ReaderT", ".xdmf")]
+if simple.GetParaViewVersion() >= (5, 12):
+    READERS.append(("VTKHDFReader", ".vtkhdf"))
+
+for program, check, file in ((sys.argv[1], check_points, "particles"), (sys.argv[2], check_lines, "network")):
     for precision in ("single", "double"):
         with tempfile.TemporaryDirectory(prefix="rhexis-test-") as folder:
             subprocess.run([program, folder, precision], check=True)
-            for name in ("XDMFReader", "Xdmf3ReaderS", "Xdmf3ReaderT"):
-                check(name, os.path.join(folder, file))
+            for name, ending in READERS:
+                check(name, os.path.join(folder, file + ending))

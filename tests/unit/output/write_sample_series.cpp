@@ -12,7 +12,9 @@ int main(int argc, char** argv) {
                                        .title = "sample",
                                        .version = "test",
                                        .fields = {source.fields().begin(), source.fields().end()},
+                                       .annotations = {"pressure"},
                                        .steps = {0, 50, 100}};
+  plan.formats = {rhexis::output::SeriesFormat::xdmf, rhexis::output::SeriesFormat::vtkhdf};
   if (argv[2] == std::string("double")) plan.precision = rhexis::output::Precision::double_precision;
   rhexis::output::PointSeries series(plan, source.layout(), world);
   for (const long step : {0, 50, 73}) {

@@ -1,0 +1,73 @@
+/// What there is to tell of a series, before any file is open.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/field_view.hpp"
+
+namespace rhexis::output {
+
+enum class SeriesFormat {
+  xdmf,    ///< <basename>.h5 and .xdmf, see XdmfSeries
+  vtkhdf,  ///< <basename>.vtkhdf, see VtkHdfSeries
+};
+
+enum class Precision { single_precision, double_precision };
+
+/// What is to be stored, and where.
+struct SeriesPlan {
+  std::filesystem::path directory;
+  std::string basename = "";  ///< of the files; empty: as the kind of series is usually called
+  std::string title;
+  std::string version;                        ///< of the program
+  std::vector<FieldInfo> fields;              ///< besides positions, which are always stored
+  std::vector<std::string> annotations = {};  ///< names of the numbers that go with every moment
+  std::vector<long> steps;                    ///< that will be written
+  Precision precision = Precision::single_precision;
+  std::vector<SeriesFormat> formats = {SeriesFormat::xdmf};
+};
+
+/// A field as the file knows it.
+struct StoredField {
+  std::string name, unit;
+  int components = 1;
+  Centring centring = Centring::point;
+};
+
+/// Points with a cell at each, which move; or points that stay with lines between them, a cell each.
+enum class SeriesKind { points, lines };
+
+/// The field of points that move which holds where they are.
+inline constexpr const char* position_field = "position";
+
+/// When a step is, and numbers that go with it.
+struct Moment {
+  long step = 0;
+  double time_s = 0;
+  std::vector<Annotation> annotations;
+};
+
+/// The moment of a PointSource or a LineSource.
+template <class Source>
+Moment moment_of(const Source& source) {
+  return {source.step(), source.time_s(), source.annotations()};
+}
+
+/// How points and cells are numbered and divided among ranks.
+struct SeriesLayout {
+  PointLayout points, cells;
+  const PointLayout& of(Centring centring) const { return centring == Centring::point ? points : cells; }
+};
+
+/// The plan with a name for its files where it has none.
+SeriesPlan named(SeriesPlan plan, const std::string& basename);
+
+/// The names of the files of a series.
+std::vector<std::string> series_files(const std::string& basename, const std::vector<SeriesFormat>& formats);
+
+std::vector<StoredField> stored(const std::vector<FieldInfo>& fields);
+
+}  // namespace rhexis::output
