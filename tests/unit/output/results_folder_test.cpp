@@ -52,6 +52,7 @@ void make_files(const fs::path& directory, const std::vector<std::string>& names
 /// A run that leaves these files, with what they hold.
 void earlier_run(const fs::path& directory, const std::vector<std::string>& names,
                  const std::string& text = "ours") {
+  world.barrier();
   const ResultsFolder folder({.directory = directory}, world);
   folder.remove_earlier_results();
   for (const std::string& name : names) {
@@ -76,6 +77,7 @@ TEST(ResultsFolder, IsMadeWithItsParentsAndParts) {
   {
     const ResultsFolder folder({.directory = directory / "a/b/"}, world);
     EXPECT_EQ(entries(directory / "a/b"), (std::vector<std::string>{"checkpoints", "images"}));
+    world.barrier();
     folder.remove_earlier_results();
     world.barrier();
   }

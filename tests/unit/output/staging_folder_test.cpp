@@ -46,7 +46,9 @@ class Staging : public ::testing::Test {
 
   std::string image(const std::string& name) {
     world.barrier();
-    return text_of(directory_ / ("r/images/" + name));
+    const std::string text = text_of(directory_ / ("r/images/" + name));
+    world.barrier();
+    return text;
   }
 
   std::string failure_of_delivery(const std::string& author, long step) {
