@@ -230,10 +230,6 @@ void resolve_coupling(Configuration& c) {
   if (p.window && *p.window > c.vessel.end_time)
     throw InputError("longer than the run, time.end = " + quantity(c.vessel.end_time, "s"),
                      "coupling.window");
-  if (!p.restartable() && c.output.checkpoint_every > 0)
-    throw InputError(
-        "checkpoints hold neither the state of two-way coupling nor that of a cascade; 0 is allowed",
-        "output.checkpoint_every");
   if (p.mode == "two_way") {
     if (c.vessel.venting != "none" && given(c, "load.venting"))
       throw InputError("not with coupling.mode = \"two_way\", where the network says how the pressure falls",

@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
 #include <utility>
 
+#include "app/cascade_state.hpp"
+#include "app/checkpoint_input.hpp"
 #include "app/folder_plan.hpp"
 #include "app/network_coupling.hpp"
 #include "app/network_files.hpp"
 #include "app/network_tables.hpp"
 #include "app/stopwatch.hpp"
+#include "app/version.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -20,126 +24,201 @@ namespace rhexis::app {
 namespace {
 
 /// Ruptures one after the other. Each event has a folder of its own, with all that a coupled run leaves; what
-/// the cascade adds is cascade.csv and run.json beside them.
+/// the cascade adds is cascade.csv and run.json beside them, and after each event a checkpoint.
 class CascadeRun : private RunBase {
  public:
   CascadeRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
-      : RunBase(std::move(configuration), std::move(options), comm) {
-    if (!options_.restart.empty()) throw InputError("a cascade cannot be restarted");
+      : RunBase(std::move(configuration), std::move(options), comm), first_(c_) {
+    first_.warnings.clear();
   }
 
   Ending run() {
+    if (!options_.restart.empty()) read_checkpoint();
     // Of the input: told once, not by every event.
     const std::vector<std::string> warnings = std::exchange(c_.warnings, {});
-    const Configuration first = c_;
     say_title(console_, c_);
-    open_folder();
-    std::optional<NetworkCoupling> next;
-    next.emplace(c_, comm_, console_);
-    if (!next->at_rest()) c_ = next->hand_over();
+    open_cascade_folder();
+    if (!state_.events.empty()) prepare_next_event();
+    solve_network();
+    if (!network_->at_rest() && !all_simulated()) c_ = network_->hand_over();
+    if (restarts_within_event_) prepare_interrupted_event();
     const Ending ending = recorded([&] {
       start_insitu();
+      *event_pictures_ = std::move(*pictures_);
+      pictures_ = event_pictures_;
       open_record();
       for (const std::string& warning : warnings) warn(warning);
       results_.cascade = nlohmann::ordered_json::array();
-      Ending last = Ending::completed;
+      if (!state_.events.empty()) write_table();
       std::string obstacle;  // to the next event
+      Ending last = Ending::completed;
       const auto goes_on = [&] {
-        return obstacle.empty() && !next->at_rest() && last == Ending::completed &&
-               static_cast<std::int64_t>(results_.cascade.size()) < c_.coupling.events;
+        return obstacle.empty() && !network_->at_rest() && last == Ending::completed && !all_simulated();
       };
       while (goes_on()) {
-        last = simulate(*next);
+        last = simulate();
+        if (last == Ending::completed) write_checkpoint();
         write_table();
-        const Aftermath aftermath = c_.aftermath;
-        c_ = first;
-        c_.aftermath = aftermath;
-        c_.coupling.vessel = "screening";
-        c_.network.query = first.network.query;
-        next.reset();
-        next.emplace(c_, comm_, console_);
-        tell_what_followed(*next);
+        prepare_next_event();
+        solve_network();
+        if (last == Ending::completed) write_checkpoint();
         write_table();
         if (!goes_on()) break;
         try {
-          c_ = next->hand_over();
+          c_ = network_->hand_over();
         } catch (const InputError& error) {
-          obstacle =
-              fmt::format("event {} cannot be simulated: {}", results_.cascade.size() + 1, error.what());
+          obstacle = fmt::format("event {} cannot be simulated: {}", state_.events.size() + 1, error.what());
         }
       }
-      results_.network = next->network_results();
-      next->write(*folder_);
+      results_.network = network_->network_results();
+      network_->write(*folder_);
       finish_insitu();
       make_movie();
       if (!obstacle.empty()) throw RunError(obstacle);
       return last == Ending::interrupted;
     });
     say_summary(ending == Ending::interrupted ? "interrupted"
-                : next->at_rest()
+                : network_->at_rest()
                     ? fmt::format("no other vessel's risk is above {}", text(c_.coupling.risk_limit))
                     : "after cascade.events");
     return ending;
   }
 
  private:
-  Ending simulate(NetworkCoupling& coupling) {
-    const auto number = results_.cascade.size() + 1;
-    const QueriedVessel vessel = coupling.vessel();
-    console_.line(fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, coupling.risk()));
+  bool all_simulated() const { return static_cast<std::int64_t>(state_.events.size()) >= c_.coupling.events; }
+
+  /// The events so far, and whether another one was going on.
+  void read_checkpoint() {
+    output::CheckpointReader file(options_.restart, comm_);
+    if (!file.holds(cascade_name))
+      file.refuse("the checkpoint is not of a cascade, as cascade.events asks for");
+    state_ = read_cascade(file);
+    restarts_within_event_ = file.holds(step_name);
+    if (restarts_within_event_ && all_simulated()) {
+      file.refuse(fmt::format("the checkpoint is of event {}, but cascade.events = {}",
+                              state_.events.size() + 1, c_.coupling.events));
+    }
+    // Within an event its run compares, and tells.
+    if (!restarts_within_event_) {
+      compare_input(file, c_, fmt::format("event {}", state_.events.size() + 1));
+    }
+  }
+
+  /// The configuration of the event after those so far.
+  void prepare_next_event() {
+    c_ = first_;
+    c_.aftermath = state_.aftermath;
+    c_.coupling.vessel = "screening";
+  }
+
+  /// With what the events so far left.
+  void solve_network() {
+    network_.reset();
+    network_.emplace(c_, comm_, console_);
+    network_->set_cascade(&state_);
+    if (!state_.events.empty()) note_what_followed();
+  }
+
+  /// The checkpoint is read before anything is written.
+  void prepare_interrupted_event() {
+    if (network_->at_rest())
+      throw InputError(options_.restart.string() +
+                       ": the network is not as it was: no vessel is at risk now");
+    interrupted_event_ = std::make_unique<VesselRun>(c_, event_options(options_.restart), comm_, &*network_);
+    interrupted_event_->prepare();
+  }
+
+  RunOptions event_options(const std::filesystem::path& restart) const {
     RunOptions options = options_;
-    options.folder = folder_->subfolder(fmt::format("event_{:02d}", number));
+    options.folder = folder_->subfolder(event_name(state_.events.size() + 1));
     options.directory = options.folder->path();
+    options.restart = restart;
     options.started = seconds_now();
-    options.pictures = pictures_;
-    coupling.set_event(number);
-    const double pressure = coupling.pressure();
-    VesselRun run(c_, options, comm_, &coupling);
-    const Ending ending = run.run();
-    spent_.add(run.spent());
-    const output::Results& r = run.results();
-    const double opening = r.opening_area_m2.value_or(0);
-    c_.aftermath.settled.push_back(static_cast<std::uint32_t>(vessel.vessel));
-    if (r.rupture_onset_s) {
-      c_.aftermath.injuries.push_back({static_cast<std::uint32_t>(vessel.vessel),
-                                       c_.coupling.outcome == "occlusion", coupling.orifice(opening)});
+    options.pictures = event_pictures_;
+    return options;
+  }
+
+  /// What came after the checkpoint is no part of this cascade.
+  void open_cascade_folder() {
+    output::FolderPlan plan = folder_plan(c_, options_);
+    const std::size_t done = state_.events.size();
+    for (std::size_t event = done + 1; event <= static_cast<std::size_t>(c_.coupling.events); ++event)
+      plan.writes.names.push_back(event_checkpoint_name(event));
+    if (!options_.restart.empty()) {
+      const std::size_t kept = done + (restarts_within_event_ ? 1 : 0);
+      plan.drops = [kept](const std::string& name) { return event_number(name) > kept; };
     }
-    nlohmann::ordered_json event{{"event", number}, {"time_s", nullptr}, {"risk", coupling.risk()}};
-    event.update(to_json(vessel));
-    event["net_pressure_Pa"] = pressure;
-    event["ruptured"] = r.rupture_onset_s.has_value();
+    open_folder(plan);
+  }
+
+  Ending simulate() {
+    const auto number = state_.events.size() + 1;
+    const QueriedVessel vessel = network_->vessel();
+    console_.line(fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, network_->risk()));
+    pictures_->steps_before = state_.steps_before;
+    pictures_->seconds_before = state_.elapsed;
+    const double pressure = network_->intact_pressure();
+    std::unique_ptr<VesselRun> run = std::exchange(interrupted_event_, nullptr);
+    if (!run) run = std::make_unique<VesselRun>(c_, event_options({}), comm_, &*network_);
+    const Ending ending = run->run();
+    spent_.add(run->spent());
+    const output::Results& r = run->results();
+    CascadeEvent event{.vessel = vessel,
+                       .risk = network_->risk(),
+                       .net_pressure = pressure,
+                       .ruptured = r.rupture_onset_s.has_value(),
+                       .rupture_onset = r.rupture_onset_s,
+                       .opening = r.opening_area_m2.value_or(0),
+                       .inflow_before = network_->inflow()};
     // An interrupted wall might have torn yet.
-    if (ending == Ending::interrupted && !r.rupture_onset_s) event["ruptured"] = nullptr;
-    event["rupture_onset_s"] = nullptr;
+    if (ending == Ending::interrupted && !r.rupture_onset_s) event.ruptured.reset();
+    if (r.rupture_onset_s) event.time = state_.elapsed + *r.rupture_onset_s;
+    state_.aftermath.settled.push_back(static_cast<std::uint32_t>(vessel.vessel));
     if (r.rupture_onset_s) {
-      event["time_s"] = elapsed_ + *r.rupture_onset_s;
-      event["rupture_onset_s"] = *r.rupture_onset_s;
+      state_.aftermath.injuries.push_back({static_cast<std::uint32_t>(vessel.vessel),
+                                           c_.coupling.outcome == "occlusion",
+                                           network_->orifice(event.opening)});
     }
-    event["opening_m2"] = opening;
-    event["inflow_before_m3_s"] = coupling.inflow();
-    for (const char* later : {"inflow_after_m3_s", "leak_m3_s", "next_vessel", "next_risk"})
-      event[later] = nullptr;
-    elapsed_ += r.simulated_s.value_or(0);
-    results_.cascade.push_back(std::move(event));
-    results_.simulated_s = elapsed_;
-    pictures_->steps_before += r.steps.value_or(0) + 1;
-    pictures_->seconds_before = elapsed_;
+    state_.elapsed += r.simulated_s.value_or(0);
+    state_.steps_before += r.steps.value_or(0) + 1;
+    state_.events.push_back(std::move(event));
     return ending;
   }
 
-  /// The last event's row is complete when the network has been solved with what it left.
-  void tell_what_followed(const NetworkCoupling& after) {
-    if (!comm_.is_root()) return;
-    nlohmann::ordered_json& event = results_.cascade.back();
-    event["inflow_after_m3_s"] = after.inflow();
-    if (event["ruptured"] == true && !after.leaks().empty()) event["leak_m3_s"] = after.leaks().back();
-    if (after.risk() <= 0) return;
-    event["next_vessel"] = after.vessel().name;
-    event["next_risk"] = after.risk();
+  /// The last event is told whole when the network has been solved with what it left. A checkpoint that knows
+  /// must know the same: throws InputError.
+  void note_what_followed() {
+    parallel::on_root<InputError>(comm_, [&] {
+      CascadeEvent& event = state_.events.back();
+      if (event.inflow_after && !alike(*event.inflow_after, network_->inflow())) {
+        throw InputError(fmt::format(
+            "{}: the network is not as it was: after event {} its inflow was {} m3/s, and now is {} m3/s",
+            options_.restart.string(), state_.events.size(), *event.inflow_after, network_->inflow()));
+      }
+      event.inflow_after = network_->inflow();
+      if (event.ruptured == true && !network_->leaks().empty()) event.leak = network_->leaks().back();
+      if (network_->risk() <= 0) return;
+      event.next_vessel = network_->vessel().name;
+      event.next_risk = network_->risk();
+    });
   }
 
-  /// Of the record: one row for each event.
+  /// Between events, so that nothing is lost if the run ends before the next one.
+  void write_checkpoint() {
+    const Stopwatch watch(spent_.output);
+    output::CheckpointWriter file(folder_->claim(event_checkpoint_name(state_.events.size())), version(),
+                                  comm_);
+    write_input(file, c_);
+    save_cascade(state_, comm_, file);
+    file.close();
+  }
+
+  /// One row for each event, also in run.json.
   void write_table() {
+    results_.simulated_s = state_.elapsed;
+    results_.cascade = nlohmann::ordered_json::array();
+    for (const CascadeEvent& event : state_.events)
+      results_.cascade.push_back(to_json(event, results_.cascade.size() + 1));
     const std::filesystem::path path = folder_->claim("cascade.csv");
     parallel::on_root<RunError>(comm_, [&] {
       const auto columns = {"event",
@@ -191,15 +270,19 @@ class CascadeRun : private RunBase {
     say_cost(performance());
   }
 
-  double elapsed_ = 0;  ///< s, simulated in all events
+  Configuration first_;  ///< as it was read, without warnings
+  CascadeState state_;   ///< of the first rank; elsewhere without what only that knows of vessels
+  std::optional<NetworkCoupling> network_;
+  bool restarts_within_event_ = false;
+  std::unique_ptr<VesselRun> interrupted_event_;
+  /// What the events draw with; filled once the folder of results is there.
+  std::shared_ptr<Pictures> event_pictures_ = std::make_shared<Pictures>();
 };
 
 }  // namespace
 
 Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm) {
   if (configuration.coupling.events > 0) return CascadeRun(std::move(configuration), options, comm).run();
-  if (configuration.coupling.mode == "two_way" && !options.restart.empty())
-    throw InputError("--restart: checkpoints do not hold the state of two-way coupling");
   Console console(comm.is_root(), options.quiet);
   say_title(console, configuration);
   RunOptions with_folder = options;

@@ -51,8 +51,9 @@ EnsembleRun::EnsembleRun(Configuration configuration, RunOptions options, parall
     : RunBase(std::move(configuration), std::move(options), comm) {
   if (!options_.restart.empty()) {
     throw InputError(
-        "--restart is for scenes with scene.model = \"vessel\"; an ensemble goes on where it stopped "
-        "when the same command is given again");
+        "--restart is for scenes with one wall after the other; an ensemble goes on where it stopped when "
+        "the "
+        "same command is given again");
   }
 }
 
@@ -84,7 +85,7 @@ void EnsembleRun::read_earlier() {
     if (ensemble::read_samples(text, path.string()).empty()) return;
     const Json earlier = Json::parse(whole_file(record), nullptr, false);
     std::string differs = record.string() + " does not tell of which";
-    if (earlier.is_object() && earlier.contains("input")) {
+    if (earlier.is_object() && earlier.contains("input") && input::is_record(earlier["input"])) {
       const auto differences = input::differences(
           earlier["input"], c_.record, [](const std::string& key) { return !only_chooses_samples(key); });
       if (differences.empty()) return;

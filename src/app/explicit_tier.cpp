@@ -53,6 +53,10 @@ class ExplicitTier : public NetworkTier {
             find_vessel(c_, network_.graph, name, coupled ? "coupling.vessel" : "network.query"));
       }
       if (c_.network.source == "file") mark_weak_vessels();
+      for (const std::uint32_t v : c_.aftermath.settled) {
+        if (v >= network_.graph.vessels())
+          throw InputError("--restart: the network has fewer vessels than when the checkpoint was written");
+      }
     });
   }
 

@@ -40,7 +40,7 @@ Names cascade_names(const Configuration& c) {
   append(names, network_names(c));
   append(of_event, files_of_steps(c, 0, false).names);
   for (std::int64_t event = 1; event <= c.coupling.events; ++event)
-    append(names, of_event, fmt::format("event_{:02d}/", event));
+    append(names, of_event, event_name(static_cast<std::size_t>(event)) + "/");
   return names;
 }
 
@@ -84,19 +84,31 @@ std::string checkpoint_name(long step) {
   return fmt::format("checkpoints/step_{:06d}.h5", step);
 }
 
+std::string event_name(std::size_t event) {
+  return fmt::format("event_{:02d}", event);
+}
+
+std::string event_checkpoint_name(std::size_t event) {
+  return fmt::format("checkpoints/{}.h5", event_name(event));
+}
+
+std::size_t event_number(const std::string& name) {
+  constexpr std::string_view before = "event_";
+  if (!name.starts_with(before)) return 0;
+  return static_cast<std::size_t>(std::atol(name.c_str() + before.size()));
+}
+
 output::FutureFiles files_of_steps(const Configuration& c, long first_step, bool restarts) {
   output::FutureFiles files;
   if (!c.output.fields.empty()) {
     files.names = output::series_files(series_name(first_step, restarts), output::formats_of(c.output));
   }
-  if (c.coupling.restartable()) {
-    files.may_be_written = [first_step, last_step = c.steps](const std::string& name) {
-      constexpr std::string_view before = "checkpoints/step_";
-      if (!name.starts_with(before)) return false;
-      const long step = std::atol(name.c_str() + before.size());
-      return step > first_step && step <= last_step && name == checkpoint_name(step);
-    };
-  }
+  files.may_be_written = [first_step, last_step = c.steps](const std::string& name) {
+    constexpr std::string_view before = "checkpoints/step_";
+    if (!name.starts_with(before)) return false;
+    const long step = std::atol(name.c_str() + before.size());
+    return step > first_step && step <= last_step && name == checkpoint_name(step);
+  };
   return files;
 }
 

@@ -17,13 +17,6 @@
 #include "peridynamics/opening.hpp"
 
 namespace rhexis::app {
-namespace {
-
-constexpr const char* table_header =
-    "time_s,schedule,net_pressure_from_Pa,net_pressure_middle_Pa,net_pressure_to_Pa,opening_m2,leak_m3_s,"
-    "inflow_m3_s,outflow_m3_s,resistance_factor,imbalance\n";
-
-}  // namespace
 
 NetworkCoupling::NetworkCoupling(const Configuration& c, parallel::Communicator comm, Console& console)
     : c_(c), comm_(comm) {
@@ -50,7 +43,6 @@ const Configuration& NetworkCoupling::hand_over() {
       const double from = chosen_.pressure_from - parts_[0].acceleration;
       const double to = chosen_.pressure_to - parts_[2].acceleration;
       find_load({from, std::midpoint(from, to), to});
-      first_load_ = load_;
       for (const double p : load_.pressure) {
         if (p < 0) {
           throw InputError(
@@ -71,6 +63,7 @@ const Configuration& NetworkCoupling::hand_over() {
   comm_.all_reduce(values, parallel::Reduce::sum);
   data_ = {values[0], values[1], values[2]};
   load_.pressure = {values[3], values[4], values[5]};
+  first_load_ = load_;
   *c_.vessel.critical_stretch *= values[6];
   try {
     piece_ = coupling::hand_over(data_, c_.coupling.resolution == "paper", c_.vessel);
@@ -191,8 +184,10 @@ void NetworkCoupling::write(const output::ResultsFolder& folder) {
 void NetworkCoupling::open(const output::ResultsFolder& folder) {
   write(folder);
   if (!two_way()) return;
-  const std::filesystem::path path = folder.claim("coupling.csv");
-  parallel::on_root<RunError>(comm_, [&] { table_ = output::TableFile(path, table_header); });
+  const std::filesystem::path path = folder.claim(table_name);
+  parallel::on_root<RunError>(comm_, [&] {
+    table_ = output::TableFile(path, kept_table_.empty() ? fmt::format("{}\n", table_header) : kept_table_);
+  });
 }
 
 void NetworkCoupling::exchange(const Wall& wall) {
@@ -202,6 +197,8 @@ void NetworkCoupling::exchange(const Wall& wall) {
     // full pressure, with an orifice that lets as much of the flow there out as the real one does now.
     coupling::Orifice hole = orifice(wall.opening);
     hole.strength = wall.schedule > 0 ? hole.strength / std::sqrt(wall.schedule) : 0;
+    // One that a restart does anew counts once.
+    if (windows_ == 0 || wall.time_s > last_time_) ++windows_;
     end(wall.time_s);
     const coupling::VesselState now = coupling::bleed(*vessel_, wall.resistance_factor, hole);
     leak_ = wall.schedule * now.leak;
@@ -215,7 +212,6 @@ void NetworkCoupling::exchange(const Wall& wall) {
     find_load({now.pressure_from, now.pressure_middle, now.pressure_to});
     for (double& p : load_.pressure) p = std::max(p, 0.0);
     worst_imbalance_ = std::max(worst_imbalance_, now.imbalance());
-    ++windows_;
     table_.append(fmt::format(
         "{},{},{},{},{},{},{},{},{},{},{}\n", wall.time_s, wall.schedule, wall.schedule * load_.pressure[0],
         wall.schedule * load_.pressure[1], wall.schedule * load_.pressure[2], wall.opening, leak_,
@@ -236,11 +232,12 @@ void NetworkCoupling::end(double time_s) {
 }
 
 LineSource& NetworkCoupling::lines() {
-  std::vector<Annotation> notes{{"vessels", "1", static_cast<double>(solution_.vessels)},
-                                {"shown", "1", static_cast<double>(solution_.shown)},
-                                {"inflow", "m3/s", solution_.inflow},
-                                {"leak", "m3/s", leak_},
-                                {"event", "1", static_cast<double>(event_)}};
+  std::vector<Annotation> notes{
+      {"vessels", "1", static_cast<double>(solution_.vessels)},
+      {"shown", "1", static_cast<double>(solution_.shown)},
+      {"inflow", "m3/s", solution_.inflow},
+      {"leak", "m3/s", leak_},
+      {"event", "1", cascade_ != nullptr ? static_cast<double>(cascade_->events.size() + 1) : 0.0}};
   if (chosen_.start) {
     constexpr const char* names[] = {"chosen_start_x", "chosen_start_y", "chosen_start_z",
                                      "chosen_end_x",   "chosen_end_y",   "chosen_end_z"};

@@ -6,11 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/cascade_state.hpp"
 #include "app/console.hpp"
 #include "app/network_tier.hpp"
 #include "coupling/hand_over.hpp"
 #include "coupling/net_pressure.hpp"
 #include "output/atomic_file.hpp"
+#include "output/checkpoint.hpp"
 #include "output/results_folder.hpp"
 #include "output/run_record.hpp"
 
@@ -38,11 +40,20 @@ class NetworkCoupling {
   bool two_way() const { return c_.coupling.mode == "two_way"; }
   /// Writes the network's files.
   void write(const output::ResultsFolder& folder);
-  /// The same, and begins coupling.csv where coupling is two-way.
+  /// The same, and begins coupling.csv where coupling is two-way, or continues it after `restore`.
   void open(const output::ResultsFolder& folder);
+
+  /// What a restart needs beside the input, from which the network is solved anew: the exchange so far, and
+  /// what the network was like, to be compared. Collective.
+  void save(output::CheckpointWriter& file) const;
+  /// Goes on from there at `time_s`; reads what there is of coupling.csv in `directory`. Throws InputError
+  /// where the network is not as it was. Collective.
+  void restore(output::CheckpointReader& file, double time_s, const std::filesystem::path& directory);
 
   /// Largest net pressure on the simulated wall by the last exchange, Pa; `profile` is relative to it.
   double pressure() const { return coupling::largest_load(load_, data_, piece_); }
+  /// The same before the vessel ruptures: by the network's first solution.
+  double intact_pressure() const { return coupling::largest_load(first_load_, data_, piece_); }
   std::vector<double> profile(std::int64_t rows, double row_spacing) const;
 
   /// Whether a window ends at this step.
@@ -63,8 +74,8 @@ class NetworkCoupling {
   /// blood.
   double highest_reynolds() const { return highest_reynolds_; }
 
-  /// Of a cascade, for the pictures.
-  void set_event(std::size_t number) { event_ = number; }
+  /// The cascade that this vessel is the next event of: for the pictures, and saved with the vessel.
+  void set_cascade(const CascadeState* cascade) { cascade_ = cascade; }
   /// The network as it is shown: with the vessel's place, pressure and leak.
   LineSource& lines();
   output::NetworkResults network_results() const;
@@ -73,7 +84,15 @@ class NetworkCoupling {
   void say_summary(Console& console) const;
 
  private:
+  static constexpr const char* table_name = "coupling.csv";
+  static constexpr const char* table_header =
+      "time_s,schedule,net_pressure_from_Pa,net_pressure_middle_Pa,net_pressure_to_Pa,opening_m2,leak_m3_s,"
+      "inflow_m3_s,outflow_m3_s,resistance_factor,imbalance";
+
   void choose();
+  void compare_with(output::CheckpointReader& file) const;
+  template <class Coupling, class Visit>
+  static void for_each_number(Coupling& coupling, const Visit& visit);
   void find_load(const std::array<double, 3>& heart);
   void choose_places();
   void warn_of_a_short_piece();
@@ -92,11 +111,13 @@ class NetworkCoupling {
   /// At the vessel's beginning, middle and end; the heart's by the last exchange.
   std::array<coupling::PressureParts, 3> parts_{};
   coupling::AxialLoad load_, first_load_;
-  std::size_t event_ = 0;
-  long steps_per_window_ = 1, windows_ = 0;
+  const CascadeState* cascade_ = nullptr;
+  long steps_per_window_ = 1;
+  std::int64_t windows_ = 0;
   double leak_ = 0, leaked_ = 0, last_time_ = 0;  ///< m3/s, m3, s
   double worst_imbalance_ = 0, schedule_ = 1, highest_reynolds_ = 0;
   double network_s_ = 0, exchange_s_ = 0;
+  std::string kept_table_;  ///< what a restart keeps of coupling.csv; of the first rank
   output::TableFile table_;
 };
 

@@ -13,7 +13,8 @@ namespace rhexis::app {
 
 NetworkRun::NetworkRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
     : RunBase(std::move(configuration), std::move(options), comm) {
-  if (!options_.restart.empty()) throw InputError("--restart is for scenes with scene.model = \"vessel\"");
+  if (!options_.restart.empty())
+    throw InputError("--restart is for scenes with a wall, scene.model = \"vessel\" or \"coupled\"");
 }
 
 Ending NetworkRun::run() {

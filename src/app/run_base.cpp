@@ -45,7 +45,7 @@ void RunBase::open_record(std::optional<std::int64_t> first_step) {
                              fmt::gmtime(std::time(nullptr) - std::lround(seconds_now() - started_))),
       .first_step = first_step,
       .input = c_.record};
-  if (first_step) provenance.checkpoint = options_.restart.string();
+  if (!options_.restart.empty()) provenance.checkpoint = options_.restart.string();
   folder_->remove_earlier_results();
   record_.emplace(folder_->claim("run.json"), provenance, comm_);
 }

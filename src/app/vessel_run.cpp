@@ -38,10 +38,14 @@ double VesselRun::pressure_at(long step) const {
   return peridynamics::scheduled_pressure(c_.vessel, time_at(step));
 }
 
-Ending VesselRun::run() {
+void VesselRun::prepare() {
   open_folder();
   build();
   if (!options_.restart.empty()) read_checkpoint();
+}
+
+Ending VesselRun::run() {
+  if (!body_) prepare();
   const Ending ending = recorded([&] {
     start_insitu();
     open_results();
@@ -123,10 +127,14 @@ std::optional<double> VesselRun::network_flop() const {
   return coupling_ != nullptr ? coupling_->flop() : std::nullopt;
 }
 
-bool VesselRun::pictures_due(long step, bool output_due) {
+bool VesselRun::output_due(long step) const {
+  return std::ranges::binary_search(c_.output_steps, step);
+}
+
+bool VesselRun::pictures_due(long step, bool with_output) {
   if (!pictures_->pipeline) return false;
   const bool due =
-      c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : output_due;
+      c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : with_output;
   // Scripts are asked last: the answer may need all ranks.
   return due && pictures_->pipeline->wants(step + pictures_->steps_before,
                                            time_at(step) + pictures_->seconds_before);
@@ -143,7 +151,9 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     const peridynamics::Observation& observation = body_->observe(pressure);
     source_->moment(step, time_at(step), observation, {{"pressure", "Pa", pressure}});
   }
-  if (with_output) {
+  // A restart's first moment begins its own series of particles; in history.csv, which it continues, it would
+  // be one row more than a run in one go has.
+  if (with_output && (output_due(step) || interrupted_)) {
     const Stopwatch watch(spent_.output);
     const peridynamics::Totals t = body_->totals();
     // Beside a hole particles have lost about half of their bonds.
@@ -167,7 +177,10 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     history_->append({step, time_at(step), pressure, t.max_displacement, t.max_damage,
                       static_cast<long>(t.broken_bonds), t.kinetic, t.strain, t.external_work,
                       t.rupture_length, leak, t.fracture, open_area_});
-    if (series_) series_->write(*source_);
+  }
+  if (with_output && series_) {
+    const Stopwatch watch(spent_.output);
+    series_->write(*source_);
   }
   if (with_pictures) {
     const Stopwatch watch(spent_.insitu);
@@ -282,9 +295,6 @@ void VesselRun::exchange(long step) {
 
 void VesselRun::time_loop() {
   const InterruptGuard guard;
-  const auto output_due = [&](long step) {
-    return std::binary_search(c_.output_steps.begin(), c_.output_steps.end(), step);
-  };
   for (step_ = first_step_;; ++step_) {
     const bool due = output_due(step_) || step_ == first_step_ || interrupted_;
     const bool pictures = pictures_due(step_, due);

@@ -22,6 +22,9 @@ class VesselRun : private RunBase {
             NetworkCoupling* coupling = nullptr);
   ~VesselRun();
 
+  /// Builds the wall and reads the checkpoint, where there is one; nothing is written. Done by `run` unless
+  /// it was before. Throws InputError.
+  void prepare();
   /// Runs to the end, or to the step after an interrupt. Throws RunError (after noting it in run.json) or
   /// InputError (nothing written).
   Ending run();
@@ -41,7 +44,8 @@ class VesselRun : private RunBase {
   void warn_of_crushed_bonds(long step, const peridynamics::Totals& t);
   void warn_of_odd_openings();
   void observe(long step, bool with_output, bool with_pictures);
-  bool pictures_due(long step, bool output_due);
+  bool output_due(long step) const;
+  bool pictures_due(long step, bool with_output);
   void take_notice(long step, std::uint64_t flags);
   void vent(long step);
   void exchange(long step);
@@ -49,6 +53,8 @@ class VesselRun : private RunBase {
   void write_checkpoint(long step);
   void read_checkpoint();
   void compare_with(output::CheckpointReader& file);
+  template <class Visit>
+  void for_each_number(peridynamics::Body::Saved& saved, const Visit& visit);
   void say_summary();
   std::optional<std::int64_t> bond_evaluations() const override {
     return start_bond_evaluations_ + body_->bond_evaluations();

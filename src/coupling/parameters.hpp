@@ -25,8 +25,6 @@ struct Parameters {
   double risk_limit = 1;
 
   bool screens() const { return vessel == "screening"; }
-  /// Whether checkpoints hold all there is to go on from: the network is not part of them.
-  bool restartable() const { return mode != "two_way" && events == 0; }
 };
 
 ParameterList declare(Parameters& p);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
+#include <set>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -45,6 +48,15 @@ class Cells {
   bool done_ = false;
 };
 
+bool makes_sense(const Sample& s) {
+  const auto is_time = [](const std::optional<double>& t) { return !t || (std::isfinite(*t) && *t >= 0); };
+  const auto is_factor = [](double f) { return std::isfinite(f) && f > 0; };
+  return std::isfinite(s.pressure) && s.pressure >= 0 && s.wall >= 0 && is_factor(s.factors.strength) &&
+         is_factor(s.factors.thickness) && is_factor(s.factors.stiffness) && is_time(s.onset) &&
+         is_time(s.first_break) && std::isfinite(s.max_displacement) && s.max_displacement >= 0 &&
+         s.steps >= 0;
+}
+
 bool read_row(std::string_view line, Sample& s) {
   Cells cells(line);
   int ruptured = 0;
@@ -53,7 +65,7 @@ bool read_row(std::string_view line, Sample& s) {
                     cells.read(ruptured) && cells.read(s.onset) && cells.read(s.first_break) &&
                     cells.read(s.max_displacement) && cells.read(s.steps) && cells.done();
   s.ruptured = ruptured == 1;
-  return read && (ruptured == 0 || ruptured == 1) && s.ruptured == s.onset.has_value();
+  return read && (ruptured == 0 || ruptured == 1) && s.ruptured == s.onset.has_value() && makes_sense(s);
 }
 
 }  // namespace
@@ -70,6 +82,7 @@ std::string row(const Sample& s) {
 
 std::vector<Sample> read_samples(const std::string& text, const std::string& file) {
   std::vector<Sample> samples;
+  std::set<std::pair<std::int64_t, double>> met;  // wall and pressure
   std::size_t start = 0;
   for (int line = 1;; ++line) {
     const std::size_t end = text.find('\n', start);
@@ -84,6 +97,9 @@ std::vector<Sample> read_samples(const std::string& text, const std::string& fil
     Sample sample;
     if (!read_row(content, sample))
       throw InputError(fmt::format("{}:{}: not a sample: '{}'", file, line, content));
+    if (!met.emplace(sample.wall, sample.pressure).second)
+      throw InputError(fmt::format("{}:{}: a second sample of wall {} under {} Pa", file, line, sample.wall,
+                                   sample.pressure));
     samples.push_back(sample);
   }
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace rhexis::input {
 namespace {
 
@@ -18,6 +20,13 @@ std::string written(const Json& entry) {
 }
 
 }  // namespace
+
+bool is_record(const Json& json) {
+  const auto all_objects = [](const Json& of) {
+    return of.is_object() && std::ranges::all_of(of, [](const Json& inner) { return inner.is_object(); });
+  };
+  return all_objects(json) && std::ranges::all_of(json, all_objects);
+}
 
 std::vector<Difference> differences(const Json& earlier, const Json& now,
                                     const std::function<bool(const std::string& key)>& counts) {

@@ -1,12 +1,17 @@
 #include "output/checkpoint.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <bit>
 #include <cassert>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
+#include "output/checksum.hpp"
 #include "output/disk_space.hpp"
 #include "output/hdf5_file.hpp"
 #include "output/temporary_file.hpp"
@@ -15,16 +20,42 @@
 namespace rhexis::output {
 namespace {
 
-constexpr const char* format_attribute = "format";
-constexpr const char* format_text = "rhexis checkpoint 4";
+constexpr const char* format_name = "format";
+constexpr std::string_view format_prefix = "rhexis checkpoint ";
+constexpr const char* format_text = "rhexis checkpoint 5";
+constexpr const char* version_name = "program_version";
+constexpr const char* checksum_name = "checksum";  ///< of all other attributes
+
+std::string checksum_name_of(const std::string& dataset) {
+  return "checksum_of_" + dataset;
+}
+
+/// Of names and values, in the order of the names.
+std::uint64_t checksum_of(const CheckpointNumbers& numbers) {
+  std::string text;
+  for (const auto& [name, value] : numbers) {
+    if (name == checksum_name) continue;
+    text += name + '=';
+    if (const auto* real = std::get_if<double>(&value)) {
+      text += fmt::format("{:016x} real", std::bit_cast<std::uint64_t>(*real));
+    } else {
+      std::visit([&](const auto& held) { text += fmt::format("{}", held); }, value);
+    }
+    text += '\n';
+  }
+  return checksum(text);
+}
+
+hsize_t extent(std::int64_t value) {
+  return static_cast<hsize_t>(value);
+}
 
 Slab slab_of(const WordBlock& block) {
-  const auto size = [](std::int64_t value) { return static_cast<hsize_t>(value); };
   return {.dimensions = 2,
-          .shape = {size(block.rows), size(block.words)},
-          .start = {size(block.first_row), size(block.first_word)},
+          .shape = {extent(block.rows), extent(block.words)},
+          .start = {extent(block.first_row), extent(block.first_word)},
           .stride = {1, 1},
-          .count = {size(block.row_count), size(block.word_count)},
+          .count = {extent(block.row_count), extent(block.word_count)},
           .block = {1, 1}};
 }
 
@@ -39,21 +70,38 @@ Slab slab_of_bytes(std::size_t size, bool all) {
           .block = {1}};
 }
 
-void read_array(const Hdf5File& file, const parallel::Communicator& communicator, const std::string& name,
-                hid_t memory_type, const Slab& slab, void* values) {
-  parallel::together<InputError>(communicator, [&] {
-    const std::vector<hsize_t> stored = file.shape(name), expected = slab.extent();
-    if (stored == expected) return;
-    throw InputError(fmt::format("{}: '{}' holds {} values, but this run has {}", file.path().string(), name,
-                                 fmt::join(stored, " x "), fmt::join(expected, " x ")));
-  });
-  parallel::together<InputError>(communicator, [&] { file.read(name, memory_type, slab, values); });
+template <class Value>
+std::uint64_t checksum_of(const std::string& name, const PointLayout& l, std::span<const Value> values) {
+  return checksum(TableBlock{l.rows, l.first_column, l.column_count, l.first_row, l.row_count}, values,
+                  checksum(name));
+}
+
+template <class Value>
+std::uint64_t checksum_of(const std::string& name, const WordBlock& b, std::span<const Value> values) {
+  return checksum(TableBlock{b.words, b.first_row, b.row_count, b.first_word, b.word_count}, values,
+                  checksum(name));
+}
+
+std::uint64_t over_ranks(const parallel::Communicator& communicator, std::uint64_t sum) {
+  communicator.all_reduce({&sum, 1}, parallel::Reduce::sum);
+  return sum;
+}
+
+/// Why the file cannot be opened, where that is not for HDF5 to say; else nothing.
+std::string obstacle(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) return "there is no such file";
+  return std::filesystem::is_regular_file(status) ? "" : "it is not a file";
 }
 
 }  // namespace
 
-CheckpointWriter::CheckpointWriter(std::filesystem::path path, parallel::Communicator communicator)
+CheckpointWriter::CheckpointWriter(std::filesystem::path path, const std::string& program_version,
+                                   parallel::Communicator communicator)
     : path_(std::move(path)), communicator_(communicator) {
+  numbers_[format_name] = format_text;
+  numbers_[version_name] = program_version;
   std::string name;
   parallel::on_root<RunError>(communicator_, [&] {
     file_ = std::make_unique<TemporaryFile>(path_);
@@ -61,8 +109,7 @@ CheckpointWriter::CheckpointWriter(std::filesystem::path path, parallel::Communi
   });
   temporary_ = communicator_.broadcast(name);
   parallel::on_root<RunError>(communicator_, [&] {
-    change_structure(temporary_, Hdf5File::Mode::create, 0,
-                     [](Hdf5File& file) { file.write_text("/", format_attribute, format_text); });
+    change_structure(temporary_, Hdf5File::Mode::create_checked, 0, [](Hdf5File&) {});
   });
 }
 
@@ -72,96 +119,188 @@ void CheckpointWriter::write(const std::string& name, const PointLayout& layout,
                              std::span<const double> values) {
   assert(static_cast<std::int64_t>(values.size()) == layout.local_count());
   write_array(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, slab_of(layout, 1), values.data());
+  note_checksum(name, checksum_of(name, layout, values));
 }
 
 void CheckpointWriter::write(const std::string& name, const WordBlock& block,
                              std::span<const std::uint16_t> values) {
   assert(static_cast<std::int64_t>(values.size()) == block.local_count());
   write_array(name, H5T_STD_U16LE, H5T_NATIVE_UINT16, slab_of(block), values.data());
-}
-
-void CheckpointWriter::write(const std::string& name, std::int64_t value) {
-  lay_out([&](Hdf5File& file) { file.write_attribute("/", name, H5T_NATIVE_INT64, &value); });
-}
-
-void CheckpointWriter::write(const std::string& name, double value) {
-  lay_out([&](Hdf5File& file) { file.write_attribute("/", name, H5T_NATIVE_DOUBLE, &value); });
+  note_checksum(name, checksum_of(name, block, values));
 }
 
 void CheckpointWriter::write(const std::string& name, const std::string& text) {
   // With its terminating zero: HDF5 has no place for nothing.
   write_array(name, H5T_STD_U8LE, H5T_NATIVE_UINT8, slab_of_bytes(text.size() + 1, communicator_.is_root()),
               text.c_str());
+  note_checksum(name, communicator_.is_root() ? checksum(text, checksum(name)) : 0);
+}
+
+void CheckpointWriter::note_checksum(const std::string& name, std::uint64_t of_this_rank) {
+  numbers_[checksum_name_of(name)] = over_ranks(communicator_, of_this_rank);
 }
 
 void CheckpointWriter::close() {
+  numbers_[checksum_name] = checksum_of(numbers_);
+  lay_out(0, [&](Hdf5File& file) {
+    for (const auto& [name, value] : numbers_) file.write_attribute("/", name, value);
+  });
   parallel::together<RunError>(communicator_, [&] { sync_to_disk(temporary_); });
   parallel::on_root<RunError>(communicator_, [&] { file_->put_in_place(); });
 }
 
-void CheckpointWriter::lay_out(const std::function<void(Hdf5File&)>& change) {
-  parallel::on_root<RunError>(communicator_,
-                              [&] { change_structure(temporary_, Hdf5File::Mode::modify, 1, change); });
+void CheckpointWriter::lay_out(std::size_t datasets, const std::function<void(Hdf5File&)>& change) {
+  parallel::on_root<RunError>(
+      communicator_, [&] { change_structure(temporary_, Hdf5File::Mode::modify_checked, datasets, change); });
 }
 
 void CheckpointWriter::write_array(const std::string& name, std::int64_t file_type, std::int64_t memory_type,
                                    const Slab& slab, const void* values) {
-  lay_out([&](Hdf5File& file) {
+  lay_out(1, [&](Hdf5File& file) {
     file.create_dataset(name, file_type, slab);
     const ByteRange bytes = file.bytes_of(name);
     reserve_space(temporary_, {&bytes, 1});
   });
   std::unique_ptr<Hdf5File> file;
   parallel::together<RunError>(communicator_, [&] {
-    file = std::make_unique<Hdf5File>(temporary_, Hdf5File::Mode::modify, communicator_);
+    file = std::make_unique<Hdf5File>(temporary_, Hdf5File::Mode::modify_checked, communicator_);
   });
   parallel::together<RunError>(communicator_, [&] { file->write(name, memory_type, slab, values); });
 }
 
 CheckpointReader::CheckpointReader(std::filesystem::path path, parallel::Communicator communicator)
-    : communicator_(communicator) {
+    : path_(std::move(path)), communicator_(communicator) {
   parallel::on_root<InputError>(communicator_, [&] {
-    const std::string why_not = !std::filesystem::exists(path)            ? "there is no such file"
-                                : !std::filesystem::is_regular_file(path) ? "it is not a file"
-                                                                          : "";
-    if (!why_not.empty()) throw InputError(fmt::format("{}: cannot open: {}", path.string(), why_not));
+    if (const std::string why_not = obstacle(path_); !why_not.empty()) refuse("cannot open: " + why_not);
   });
-  parallel::together<InputError>(
-      communicator_, [&] { file_ = std::make_unique<Hdf5File>(path, Hdf5File::Mode::read, communicator_); });
   parallel::together<InputError>(communicator_, [&] {
-    if (file_->has_attribute("/", format_attribute) && file_->read_text("/", format_attribute) == format_text)
-      return;
-    throw InputError(fmt::format("{}: not a checkpoint of this version of Rhexis", path.string()));
+    try {
+      file_ = std::make_unique<Hdf5File>(path_, Hdf5File::Mode::read, communicator_);
+    } catch (const std::runtime_error& error) {
+      throw InputError(std::string(error.what()) + "; a checkpoint that is damaged or cut short?");
+    }
   });
+  parallel::together<InputError>(communicator_, [&] { read_numbers(); });
 }
 
 CheckpointReader::~CheckpointReader() = default;
 
+void CheckpointReader::refuse(const std::string& reason) const {
+  throw InputError(fmt::format("{}: {}", path_.string(), reason));
+}
+
+void CheckpointReader::require_this_format() const {
+  constexpr const char* none =
+      "not a checkpoint of Rhexis: its attribute 'format' is missing or says something else";
+  if (!file_->has_attribute("/", format_name)) refuse(none);
+  const AttributeValue value = file_->read_attribute("/", format_name);
+  const auto* format = std::get_if<std::string>(&value);
+  if (format == nullptr || !format->starts_with(format_prefix)) refuse(none);
+  if (*format == format_text) return;
+  std::string writer = "an earlier version";
+  if (file_->has_attribute("/", version_name)) {
+    const AttributeValue version = file_->read_attribute("/", version_name);
+    if (const auto* text = std::get_if<std::string>(&version)) writer = "version " + *text;
+  }
+  refuse(
+      fmt::format("a checkpoint of format {}, which {} of Rhexis wrote; this one reads format {} alone: "
+                  "go on with that version, or start anew",
+                  format->substr(format_prefix.size()), writer,
+                  std::string_view(format_text).substr(format_prefix.size())));
+}
+
+void CheckpointReader::read_numbers() {
+  require_this_format();
+  for (const std::string& name : file_->attribute_names("/"))
+    numbers_[name] = file_->read_attribute("/", name);
+  const auto stored = numbers_.find(checksum_name);
+  if (stored == numbers_.end() || stored->second != CheckpointNumbers::mapped_type(checksum_of(numbers_)))
+    refuse("the checkpoint is damaged: its numbers do not have their checksum");
+}
+
+bool CheckpointReader::holds(const std::string& name) const {
+  return numbers_.contains(name) || numbers_.contains(checksum_name_of(name));
+}
+
+void CheckpointReader::compare_checksum(const std::string& name, std::uint64_t of_all_ranks) const {
+  const auto stored = numbers_.find(checksum_name_of(name));
+  if (stored != numbers_.end() && stored->second == CheckpointNumbers::mapped_type(of_all_ranks)) return;
+  refuse(fmt::format("the checkpoint is damaged: '{}' does not have its checksum", name));
+}
+
+void CheckpointReader::read_array(const std::string& name, std::int64_t memory_type, const Slab& slab,
+                                  void* values) const {
+  parallel::together<InputError>(communicator_, [&] {
+    const std::vector<hsize_t> stored = file_->shape(name, memory_type), expected = slab.extent();
+    if (stored != expected)
+      refuse(fmt::format("'{}' holds {} values, but this run has {}", name, fmt::join(stored, " x "),
+                         fmt::join(expected, " x ")));
+  });
+  parallel::together<InputError>(communicator_, [&] { file_->read(name, memory_type, slab, values); });
+}
+
 void CheckpointReader::read(const std::string& name, const PointLayout& layout, std::span<double> values) {
   assert(static_cast<std::int64_t>(values.size()) == layout.local_count());
-  read_array(*file_, communicator_, name, H5T_NATIVE_DOUBLE, slab_of(layout, 1), values.data());
+  read_array(name, H5T_NATIVE_DOUBLE, slab_of(layout, 1), values.data());
+  compare_checksum(name,
+                   over_ranks(communicator_, checksum_of(name, layout, std::span<const double>(values))));
+  parallel::together<InputError>(communicator_, [&] {
+    if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
+      refuse(fmt::format("'{}' holds values that are not finite", name));
+  });
 }
 
 void CheckpointReader::read(const std::string& name, const WordBlock& block,
                             std::span<std::uint16_t> values) {
   assert(static_cast<std::int64_t>(values.size()) == block.local_count());
-  read_array(*file_, communicator_, name, H5T_NATIVE_UINT16, slab_of(block), values.data());
-}
-
-void CheckpointReader::read(const std::string& name, std::int64_t& value) {
-  parallel::together<InputError>(communicator_,
-                                 [&] { file_->read_attribute("/", name, H5T_NATIVE_INT64, &value); });
-}
-
-void CheckpointReader::read(const std::string& name, double& value) {
-  parallel::together<InputError>(communicator_,
-                                 [&] { file_->read_attribute("/", name, H5T_NATIVE_DOUBLE, &value); });
+  read_array(name, H5T_NATIVE_UINT16, slab_of(block), values.data());
+  compare_checksum(
+      name, over_ranks(communicator_, checksum_of(name, block, std::span<const std::uint16_t>(values))));
 }
 
 void CheckpointReader::read(const std::string& name, std::string& text) {
-  parallel::together<InputError>(communicator_, [&] { text.resize(file_->shape(name).at(0)); });
-  read_array(*file_, communicator_, name, H5T_NATIVE_UINT8, slab_of_bytes(text.size(), true), text.data());
-  if (!text.empty()) text.pop_back();
+  parallel::together<InputError>(communicator_, [&] {
+    const std::vector<hsize_t> stored = file_->shape(name, H5T_NATIVE_UINT8);
+    if (stored.size() != 1 || stored[0] == 0 || stored[0] > std::filesystem::file_size(path_))
+      refuse(fmt::format("'{}' is not a text that fits into the file", name));
+    text.resize(stored[0]);
+  });
+  read_array(name, H5T_NATIVE_UINT8, slab_of_bytes(text.size(), true), text.data());
+  parallel::together<InputError>(communicator_, [&] {
+    text.pop_back();
+    compare_checksum(name, checksum(text, checksum(name)));
+  });
+}
+
+template <class Number>
+Number CheckpointReader::number(const std::string& name, double least, double most) const {
+  const auto found = numbers_.find(name);
+  if (found == numbers_.end()) refuse(fmt::format("it does not hold '{}'", name));
+  const auto* value = std::get_if<Number>(&found->second);
+  if (value == nullptr) refuse(fmt::format("'{}' is a number of another kind", name));
+  const auto real = static_cast<double>(*value);
+  if (!std::isfinite(real) || real < least || real > most)
+    refuse(
+        fmt::format("'{}' is {}, which makes no sense ({:.6g} to {:.6g} does)", name, *value, least, most));
+  return *value;
+}
+
+void CheckpointReader::read(const std::string& name, std::int64_t& value, double least, double most) {
+  value = number<std::int64_t>(name, least, most);
+}
+
+void CheckpointReader::read(const std::string& name, double& value, double least, double most) {
+  value = number<double>(name, least, most);
+}
+
+void CheckpointReader::read(const std::string& name, std::optional<double>& value, double least,
+                            double most) {
+  value.reset();
+  if (numbers_.contains(name)) value = number<double>(name, least, most);
+}
+
+void CheckpointReader::read(const std::string& name, bool& flag) {
+  flag = number<std::int64_t>(name, 0, 1) != 0;
 }
 
 }  // namespace rhexis::output

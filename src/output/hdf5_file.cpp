@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 namespace rhexis::output {
@@ -28,6 +29,24 @@ Hdf5Handle text_type(std::size_t length) {
   const bool succeeded =
       type >= 0 && H5Tset_size(type, length + 1) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
   return succeeded ? std::move(type) : Hdf5Handle{};
+}
+
+/// HDF5's types of the numbers that an attribute may be, in the order of AttributeValue.
+constexpr std::array<hid_t (*)(), 3> number_types = {[]() -> hid_t { return H5T_NATIVE_INT64; },
+                                                     []() -> hid_t { return H5T_NATIVE_UINT64; },
+                                                     []() -> hid_t { return H5T_NATIVE_DOUBLE; }};
+
+/// Attributes of HDF5 hold no more than this many bytes.
+constexpr std::size_t longest_text = 1 << 16;
+
+/// Where the value lies in memory.
+template <class Value>
+auto number_of(Value& value) {
+  return std::visit(
+      [](auto& held) {
+        return static_cast<std::conditional_t<std::is_const_v<Value>, const void*, void*>>(&held);
+      },
+      value);
 }
 
 }  // namespace
@@ -62,6 +81,10 @@ void Hdf5File::require(bool succeeded, std::string_view doing, std::string_view 
   throw std::runtime_error(fmt::format("{}: cannot {} {}: {}", path_.string(), doing, object, reason()));
 }
 
+void Hdf5File::refuse(const std::string& reason) const {
+  throw std::runtime_error(fmt::format("{}: {}", path_.string(), reason));
+}
+
 Hdf5Handle Hdf5File::own(hid_t id, Hdf5Handle::Close closer, std::string_view doing,
                          std::string_view object) const {
   require(id >= 0, doing, object);
@@ -76,11 +99,13 @@ Hdf5File::Hdf5File(std::filesystem::path path, Mode mode, const parallel::Commun
   require(H5Pset_fapl_mpio(access, communicator.handle(), MPI_INFO_NULL) >= 0, "prepare", "the access");
   collective_ = own(H5Pcreate(H5P_DATASET_XFER), H5Pclose, "prepare", "the transfer");
   require(H5Pset_dxpl_mpio(collective_, H5FD_MPIO_COLLECTIVE) >= 0, "prepare", "the transfer");
+  if (mode == Mode::create_checked || mode == Mode::modify_checked)
+    require(H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) >= 0, "prepare", "the access");
   const std::string name = path_.string();
-  if (mode == Mode::create) {
+  if (mode == Mode::create || mode == Mode::create_checked) {
     file_ = own(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "create", "the file");
   } else {
-    const unsigned flags = mode == Mode::modify ? H5F_ACC_RDWR : H5F_ACC_RDONLY;
+    const unsigned flags = mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR;
     file_ = own(H5Fopen(name.c_str(), flags, access), H5Fclose, "open", "the file");
   }
 }
@@ -133,8 +158,11 @@ void Hdf5File::read(const std::string& name, hid_t memory_type, const Slab& slab
   require(H5Dread(dataset, memory_type, in_memory, in_file, collective_, values) >= 0, "read", name);
 }
 
-std::vector<hsize_t> Hdf5File::shape(const std::string& name) const {
+std::vector<hsize_t> Hdf5File::shape(const std::string& name, hid_t type) const {
   const Hdf5Handle dataset = open_dataset(name);
+  const Hdf5Handle stored = own(H5Dget_type(dataset), H5Tclose, "read the type of", name);
+  if (H5Tget_class(stored) != H5Tget_class(type) || H5Tget_size(stored) != H5Tget_size(type))
+    refuse(fmt::format("data set {} holds values of another type", name));
   const Hdf5Handle space = own(H5Dget_space(dataset), H5Sclose, "read the shape of", name);
   std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
   require(H5Sget_simple_extent_dims(space, extent.data(), nullptr) >= 0, "read the shape of", name);
@@ -156,10 +184,14 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
   require(H5Awrite(attribute, type, value) >= 0, "write attribute", name);
 }
 
-void Hdf5File::write_attribute(const std::string& object, const std::string& name, hid_t type,
-                               const void* value) {
+void Hdf5File::write_attribute(const std::string& object, const std::string& name,
+                               const AttributeValue& value) {
   const Hdf5Handle space = own(H5Screate(H5S_SCALAR), H5Sclose, "describe attribute", name);
-  write_attribute(object, name, type, space, value);
+  const auto* text = std::get_if<std::string>(&value);
+  const Hdf5Handle type = text != nullptr ? text_type(text->size())
+                                          : Hdf5Handle(H5Tcopy(number_types[value.index()]()), H5Tclose);
+  require(type >= 0, "describe attribute", name);
+  write_attribute(object, name, type, space, text != nullptr ? text->c_str() : number_of(value));
 }
 
 void Hdf5File::write_numbers(const std::string& object, const std::string& name,
@@ -173,35 +205,54 @@ void Hdf5File::write_ascii(const std::string& object, const std::string& name, c
   const Hdf5Handle type = own(H5Tcopy(H5T_C_S1), H5Tclose, "describe attribute", name);
   require(H5Tset_size(type, text.size()) >= 0 && H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0,
           "describe attribute", name);
-  write_attribute(object, name, type, text.data());
+  const Hdf5Handle space = own(H5Screate(H5S_SCALAR), H5Sclose, "describe attribute", name);
+  write_attribute(object, name, type, space, text.data());
 }
 
-void Hdf5File::write_text(const std::string& object, const std::string& name, const std::string& text) {
-  const Hdf5Handle type = text_type(text.size());
-  require(type >= 0, "describe attribute", name);
-  write_attribute(object, name, type, text.c_str());
+AttributeValue Hdf5File::read_attribute(const std::string& object, const std::string& name) const {
+  const Hdf5Handle attribute =
+      own(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+          "open attribute", name);
+  const Hdf5Handle type = own(H5Aget_type(attribute), H5Tclose, "read the type of attribute", name);
+  const Hdf5Handle space = own(H5Aget_space(attribute), H5Sclose, "read the shape of attribute", name);
+  const H5T_class_t kind = H5Tget_class(type);
+  const std::size_t size = H5Tget_size(type);
+  const auto read = [&](hid_t memory_type, void* value) {
+    require(H5Aread(attribute, memory_type, value) >= 0, "read attribute", name);
+  };
+  if (H5Sget_simple_extent_npoints(space) != 1) refuse(fmt::format("attribute {} is not one value", name));
+  if (kind == H5T_STRING && H5Tis_variable_str(type) == 0 && size <= longest_text) {
+    std::string text(size + 1, '\0');
+    read(text_type(size), text.data());
+    return text.c_str();
+  }
+  AttributeValue value;
+  if (kind == H5T_FLOAT && size == sizeof(double)) {
+    value = 0.0;
+  } else if (kind == H5T_INTEGER && size == sizeof(std::int64_t)) {
+    if (H5Tget_sign(type) == H5T_SGN_NONE) value = std::uint64_t{};
+  } else {
+    refuse(fmt::format("attribute {} is neither a number of 64 bits nor a text", name));
+  }
+  read(number_types[value.index()](), number_of(value));
+  return value;
 }
 
 bool Hdf5File::has_attribute(const std::string& object, const std::string& name) const {
   return H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
 }
 
-void Hdf5File::read_attribute(const std::string& object, const std::string& name, hid_t type,
-                              void* value) const {
-  const Hdf5Handle attribute =
-      own(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-          "open attribute", name);
-  require(H5Aread(attribute, type, value) >= 0, "read attribute", name);
-}
-
-std::string Hdf5File::read_text(const std::string& object, const std::string& name) const {
-  const Hdf5Handle attribute =
-      own(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-          "open attribute", name);
-  std::string text(static_cast<std::size_t>(H5Aget_storage_size(attribute)), '\0');
-  const Hdf5Handle type = text_type(text.size() - 1);
-  require(type >= 0 && H5Aread(attribute, type, text.data()) >= 0, "read attribute", name);
-  return text.c_str();
+std::vector<std::string> Hdf5File::attribute_names(const std::string& object) const {
+  std::vector<std::string> names;
+  const auto add = [](hid_t, const char* name, const H5A_info_t*, void* out) -> herr_t {
+    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+    return 0;
+  };
+  hsize_t from = 0;
+  require(H5Aiterate_by_name(file_, object.c_str(), H5_INDEX_NAME, H5_ITER_INC, &from, add, &names,
+                             H5P_DEFAULT) >= 0,
+          "list the attributes of", object);
+  return names;
 }
 
 void Hdf5File::close() {

@@ -11,6 +11,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "core/field_view.hpp"
@@ -49,12 +50,17 @@ struct Slab {
 /// columns are blocks of `row_count` ids, `rows` apart.
 Slab slab_of(const PointLayout& layout, int components);
 
+/// What an attribute holds here.
+using AttributeValue = std::variant<std::int64_t, std::uint64_t, double, std::string>;
+
 /// A file open on all ranks of a communicator. Every call is collective and throws std::runtime_error whose
 /// text names the file, what was being done and HDF5's reason, possibly on some ranks only: see `together`.
 /// HDF5 itself prints nothing.
 class Hdf5File {
  public:
-  enum class Mode { create, modify, read };
+  /// Where a file is `checked`, the structures that HDF5 adds to it carry checksums, which HDF5 verifies when
+  /// it reads them (file format of HDF5 1.8); without, they are as old as possible.
+  enum class Mode { create, create_checked, modify, modify_checked, read };
   Hdf5File(std::filesystem::path path, Mode mode, const parallel::Communicator& communicator);
 
   const std::filesystem::path& path() const { return path_; }
@@ -67,27 +73,33 @@ class Hdf5File {
   /// slab.
   void write(const std::string& name, hid_t memory_type, const Slab& slab, const void* values);
   void read(const std::string& name, hid_t memory_type, const Slab& slab, void* values) const;
-  /// The extent of a data set; throws if there is none of that name.
-  std::vector<hsize_t> shape(const std::string& name) const;
+  /// The extent of a data set; throws if there is none of that name, or if its values are not stored as
+  /// `type`.
+  std::vector<hsize_t> shape(const std::string& name, hid_t type) const;
   /// Where a data set's values lie in the file.
   ByteRange bytes_of(const std::string& name) const;
 
   /// Attributes of a group or a data set; the same value on every rank.
-  void write_attribute(const std::string& object, const std::string& name, hid_t type, const void* value);
-  void write_text(const std::string& object, const std::string& name, const std::string& text);
+  void write_attribute(const std::string& object, const std::string& name, const AttributeValue& value);
+  void write_text(const std::string& object, const std::string& name, const std::string& text) {
+    write_attribute(object, name, text);
+  }
+  /// Throws where there is none, or what there is is neither one number of 64 bits nor one text.
+  AttributeValue read_attribute(const std::string& object, const std::string& name) const;
   /// As VTKHDF wants them: characters without an end, and numbers in one dimension.
   void write_ascii(const std::string& object, const std::string& name, const std::string& text);
   void write_numbers(const std::string& object, const std::string& name,
                      const std::vector<std::int64_t>& numbers);
   bool has_attribute(const std::string& object, const std::string& name) const;
-  void read_attribute(const std::string& object, const std::string& name, hid_t type, void* value) const;
-  std::string read_text(const std::string& object, const std::string& name) const;
+  /// In the order of their names.
+  std::vector<std::string> attribute_names(const std::string& object) const;
 
   /// Hands everything to the operating system. The destructor does too, but cannot tell of a failure.
   void close();
 
  private:
   void require(bool succeeded, std::string_view doing, std::string_view object) const;
+  [[noreturn]] void refuse(const std::string& reason) const;
   Hdf5Handle own(hid_t id, Hdf5Handle::Close closer, std::string_view doing, std::string_view object) const;
   Hdf5Handle open_dataset(const std::string& name) const;
   void write_attribute(const std::string& object, const std::string& name, hid_t type, hid_t space,

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <sstream>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/text_file.hpp"
+#include "output/kept_rows.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::output {
@@ -24,29 +23,11 @@ std::string line_of(const HistoryRow& row) {
                      row.opening_m2);
 }
 
-/// The header and the complete rows up to `last_step` of the file; the header alone where there is no file.
-std::string kept_text(const std::filesystem::path& path, long last_step) {
-  std::string kept = fmt::format("{}\n", header);
-  if (!std::filesystem::exists(path)) return kept;
-  std::istringstream file(whole_file(path));
-  std::string line;
-  std::getline(file, line);
-  if (line != header) {
-    throw InputError(fmt::format("{}: not a history of this program: its first line should be '{}'",
-                                 path.string(), header));
-  }
-  // getline meets the end of the file on a last line without a line break: one that a crash cut short.
-  while (std::getline(file, line) && !file.eof()) {
-    long step = 0;
-    if (!(std::istringstream(line) >> step)) {
-      throw InputError(fmt::format("{}: this row does not begin with a step: '{}'", path.string(), line));
-    }
-    if (step <= last_step) kept += line + '\n';
-  }
-  return kept;
-}
-
 }  // namespace
+
+std::string kept_history(const std::filesystem::path& path, long last_step) {
+  return kept_rows(path, header, [&](double step) { return step <= static_cast<double>(last_step); });
+}
 
 History::History(std::filesystem::path path, parallel::Communicator communicator)
     : path_(std::move(path)), communicator_(communicator) {
@@ -56,7 +37,7 @@ History::History(std::filesystem::path path, parallel::Communicator communicator
 History::History(std::filesystem::path path, parallel::Communicator communicator, long restart_step)
     : path_(std::move(path)), communicator_(communicator) {
   std::string kept;
-  parallel::on_root<InputError>(communicator_, [&] { kept = kept_text(path_, restart_step); });
+  parallel::on_root<InputError>(communicator_, [&] { kept = kept_history(path_, restart_step); });
   start_with(kept);
 }
 

@@ -27,6 +27,10 @@ struct HistoryRow {
   double opening_m2 = 0;
 };
 
+/// What a restart keeps of the history `path`: its rows up to and including `last_step`. Throws InputError if
+/// the file is no history, or damaged (kept_rows.hpp). Local to the calling rank.
+std::string kept_history(const std::filesystem::path& path, long last_step);
+
 /// Appends rows, each handed to the system before the next step begins. Collective; only the root touches the
 /// file. Numbers are the shortest decimals that read back as the same double.
 class History {
@@ -36,7 +40,7 @@ class History {
 
   /// Continues the file of the run that left a checkpoint at `restart_step`: keeps its rows up to and
   /// including that step, drops later ones and a row that a crash cut short. Starts a new file where there is
-  /// none. Throws InputError if the file is not a history.
+  /// none. Throws InputError as kept_history.
   History(std::filesystem::path path, parallel::Communicator communicator, long restart_step);
 
   /// Adds a row. Throws RunError on all ranks if it cannot be written (disk full).

@@ -37,8 +37,9 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields) {
        {"single", "double"}},
       declare_format(p),
       {"output.checkpoint_every", &p.checkpoint_every, "1", "0",
-       "Steps between checkpoints for --restart; 0: only when a run is interrupted.", "",
-       Range::not_negative()},
+       "Steps between checkpoints for --restart; 0: only when a run is interrupted. A cascade leaves one "
+       "after each event, too.",
+       "", Range::not_negative()},
       {"output.movie", &p.movie, "", "true", "Make movie.mp4 of the pictures at the end (needs ffmpeg).", ""},
       only_with({"output.movie", {"true"}}, {"output.frames_per_second", &p.frames_per_second, "1", "12",
                                              "Of the movie.", "", Range::between(1, 120)}),

@@ -91,7 +91,8 @@ bool stays(const std::string& name) {
 class ResultsFolder::State {
  public:
   State(const FolderPlan& plan, const parallel::Communicator& communicator)
-      : directory(plan.directory), comm(communicator), earlier_(plan.earlier) {
+      : directory(plan.directory), comm(communicator), drops_(plan.drops) {
+    if (plan.earlier == EarlierResults::remove) drops_ = [](const std::string&) { return true; };
     share_run_token(comm.broadcast(run_token()));
     parallel::on_root<InputError>(comm, [&] {
       if (fs::absolute(directory).string().size() + longest_name_inside > PATH_MAX)
@@ -112,7 +113,7 @@ class ResultsFolder::State {
   void begin() {
     if (begun_) return;
     remove_unfinished();
-    if (earlier_ == EarlierResults::remove) remove_files();
+    remove_files();
     Manifest& manifest = contents_->manifest;
     manifest.tokens = {run_token()};
     list_ = TableFile(directory / Manifest::file_name, manifest.text());
@@ -173,11 +174,12 @@ class ResultsFolder::State {
     }
   }
 
-  /// Removes the files of the manifest but checkpoints, then the folders that have become empty.
+  /// Removes the files of the manifest that go, but checkpoints, then the folders that have become empty.
   void remove_files() {
     Manifest& manifest = contents_->manifest;
     std::erase_if(manifest.files, [&](const std::string& name) {
       const fs::path path = directory / name;
+      if (!drops_(name)) return false;
       if (!contents_->is_straight(name)) return true;
       if (stays(name) || contents_->is_read(path)) return !fs::exists(fs::symlink_status(path));
       unlink_ours(path);
@@ -192,7 +194,7 @@ class ResultsFolder::State {
     });
   }
 
-  EarlierResults earlier_;
+  std::function<bool(const std::string& name)> drops_;
   NewFolders made_;
   std::shared_ptr<const void> lock_;
   std::optional<FolderContents> contents_;

@@ -123,7 +123,7 @@ Place VtkHdfSeries::place_of(const StoredField& field, long, bool, std::size_t e
 void VtkHdfSeries::lay_out(Hdf5File& h5, const SeriesPlan& plan) const {
   h5.create_group("/VTKHDF");
   h5.create_group("/VTKHDF/Steps");
-  h5.write_attribute("/VTKHDF/Steps", "NSteps", H5T_STD_I64LE, &not_yet);
+  h5.write_attribute("/VTKHDF/Steps", "NSteps", not_yet);
   h5.create_dataset(times, H5T_IEEE_F64LE, slab_of({1, room_, 0, 1, 0, room_}, 1));
   h5.write_numbers("/VTKHDF", "Version", {2, 2});
   h5.write_ascii("/VTKHDF", "Type", "PolyData");

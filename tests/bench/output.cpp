@@ -171,7 +171,7 @@ void checkpoint(benchmark::State& state, int rows, const std::filesystem::path& 
                                            sizeof(std::uint16_t) * size.words.size());
   write_frames(state, bytes, *body, folder.path, [&] {
     const auto saved = body->save();
-    output::CheckpointWriter file(folder.path / "checkpoint.h5", test::self());
+    output::CheckpointWriter file(folder.path / "checkpoint.h5", "bench", test::self());
     for (int i = 0; i < 16; ++i) file.write("number_" + std::to_string(i), 1.0);  // as many as VesselRun's
     for (std::size_t k = 0; k < 3; ++k) {
       file.write("displacement_" + std::to_string(k), body->layout(), saved.displacement[k]);

@@ -8,9 +8,12 @@ import json
 import math
 import os
 import pathlib
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 RHEXIS, SOURCE, *MPIRUN = sys.argv[1:]
@@ -118,12 +121,13 @@ class Screening(unittest.TestCase):
         (self.path / "j.csv").write_text(JUNCTIONS)
         (self.path / "v.csv").write_text(VESSELS)
 
-    def run_scene(self, text, name="out", ranks=1, threads=1, sets=(), status=0):
+    def run_scene(self, text, name="out", ranks=1, threads=1, sets=(), more=(), status=0):
         scene = self.path / f"{name}.toml"
         scene.write_text(text)
         command = ([*MPIRUN, "-n", str(ranks)] if ranks > 1 else []) + [RHEXIS, "run", scene, "-o", self.path / name]
         for entry in sets:
             command += ["--set", entry]
+        command += more
         environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"}
         done = subprocess.run(command, capture_output=True, text=True, cwd=self.path, env=environment)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
@@ -233,6 +237,60 @@ class Screening(unittest.TestCase):
         given = json.loads((self.path / "out" / "run.json").read_text())["input"]
         coefficient, density = given["load"]["discharge_coefficient"]["value"], given["blood"]["density"]["value"]
         self.assertAlmostEqual(leak / (coefficient * opening * math.sqrt(2 * middle / density)), 1, places=5)
+
+    def test_a_cascade_goes_on_from_any_checkpoint(self):
+        """Within its second event, two-way, on two ranks; between events; bit by bit."""
+        text = FILES.replace('"screening"', '"screening"\nmode = "two_way"\nwindow = "50 us"')
+        text += '[cascade]\nevents = 3\nrisk_limit = 0.5\noutcome = "occlusion"\n'
+        self.run_scene(text, "whole", sets=["output.checkpoint_every=150"])
+        whole = self.record("whole")
+        events = rows(self.path / "whole/cascade.csv")
+        self.assertEqual([e["name"] for e in events], ["a", "b", "c"])
+        steps = sorted(path.name for path in (self.path / "whole/event_02/checkpoints").iterdir())
+        self.assertGreater(len(steps), 2)
+        for name, checkpoint, ranks in (("within", f"event_02/checkpoints/{steps[1]}", 2), ("between", "checkpoints/event_01.h5", 1)):
+            with self.subTest(name):
+                shutil.copytree(self.path / "whole", self.path / name)
+                first = (self.path / name / "event_01/run.json").stat().st_mtime_ns
+                self.run_scene(text, name, ranks=ranks, more=["--restart", self.path / name / checkpoint])
+                self.assertEqual(first, (self.path / name / "event_01/run.json").stat().st_mtime_ns)
+                self.assertEqual(self.record(name)["cascade"], whole["cascade"])
+                self.assertEqual(self.record(name)["network"], whole["network"])
+                for file in ("cascade.csv", *(f"event_0{event}/{table}.csv" for event in (1, 2, 3) for table in ("history", "coupling"))):
+                    self.assertEqual((self.path / name / file).read_bytes(), (self.path / "whole" / file).read_bytes(), file)
+        # Fewer events: what came after goes.
+        self.run_scene(text, "between", sets=["cascade.events=2"], more=["--restart", self.path / "between/checkpoints/event_01.h5"])
+        self.assertEqual([e["name"] for e in rows(self.path / "between/cascade.csv")], ["a", "b"])
+        self.assertFalse((self.path / "between/event_03/history.csv").exists())
+        self.assertTrue((self.path / "between/event_01/history.csv").exists())
+        # Another network, no cascade, or fewer events than the checkpoint has seen.
+        within, between = f"whole/event_02/checkpoints/{steps[1]}", "whole/checkpoints/event_01.h5"
+        (self.path / "wide.csv").write_text(VESSELS.replace("bed c,c,vein,0.25", "bed c,c,vein,0.26"))
+        for checkpoint, setting, what in ((between, "network.files=['j.csv','wide.csv']", "the network is not as it was: after event 1 its inflow was"),
+                                          (within, "network.files=['j.csv','wide.csv']", "the network is not as it was: after event 1 its inflow was"),
+                                          (within, "cascade.events=1", "of event 2, but cascade.events = 1"),
+                                          (between, "material.critical_stretch=0.03", "another body"),
+                                          (between, "cascade.events=0", "between two events"), (within, "cascade.events=0", "set cascade.events")):
+            with self.subTest(what):
+                done = self.run_scene(text, "x", sets=[setting], more=["--restart", checkpoint], status=2)
+                self.assertIn(checkpoint, done.stderr)
+                self.assertIn(what, done.stderr)
+                self.assertFalse((self.path / "x").exists())
+
+    def test_an_interrupted_cascade_loses_nothing(self):
+        text = FILES.replace("every_steps = 200", "every_steps = 2") + '[cascade]\nevents = 2\noutcome = "occlusion"\n'
+        self.run_scene(text, "whole")
+        history = self.path / "cut/event_02/history.csv"
+        with subprocess.Popen([RHEXIS, "run", "whole.toml", "-o", "cut"], cwd=self.path, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+            while process.poll() is None and not (history.exists() and history.read_text().count("\n") > 3):
+                time.sleep(0.01)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130)
+        (checkpoint,) = (self.path / "cut/event_02/checkpoints").iterdir()
+        self.run_scene(text, "cut", more=["--restart", checkpoint])
+        for file in ("cascade.csv", "event_02/history.csv"):
+            self.assertEqual((self.path / "cut" / file).read_bytes(), (self.path / "whole" / file).read_bytes(), file)
 
     def test_a_cascade_that_cannot_go_on_keeps_what_it_has(self):
         """The second vessel is too short to be simulated."""

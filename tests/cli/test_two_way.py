@@ -5,8 +5,11 @@ Run by ctest as: test_two_way.py RHEXIS MPIRUN...   (with /usr/bin/python3, whic
 
 import json
 import math
+import shutil
 import sys
 import unittest
+
+import h5py
 
 from coupled_case import (ARTERY, BED, BLOOD_DENSITY, BLOOD_VISCOSITY, DISCHARGE, FEEDER, MMHG, TREE, TWO_WAY, VESSELS, CoupledCase, at_once,
                           changed)
@@ -140,6 +143,53 @@ class TwoWay(CoupledCase):
         self.assertLess(self.rows("implicit/coupling.csv")[-1]["resistance_factor"], 0.99)
         for one, other in zip(*(run["coupling"]["net_pressure_at_end_Pa"] for run in runs), strict=True):
             self.assert_close(one, other, 1e-9)
+
+    def test_restart_goes_on_bit_by_bit(self):
+        """Within a window before the wall breaks, at a window's end while it tears; on other numbers of ranks."""
+        scene = changed(TWO_WAY, "end", 'end = "1 ms"')
+        results = self.run_well(scene, "whole", "output.checkpoint_every=66")
+        self.assertGreater(results["coupling"]["leaked_m3"], 0)
+        self.assertGreater(self.rows("whole/history.csv")[33]["broken_bonds"], 0)
+        for step, ranks in ((66, 4), (132, 2)):
+            folder = f"from_{step}"
+            shutil.copytree(self.path / "whole", self.path / folder)
+            rest = self.run_well(scene, folder, more=["--restart", f"{folder}/checkpoints/step_{step:06d}.h5"], ranks=ranks)
+            self.assertEqual(rest, results)
+            for file in ("history.csv", "coupling.csv", "vessels.csv"):
+                self.assertEqual((self.path / folder / file).read_bytes(), (self.path / "whole" / file).read_bytes(), (step, file))
+            with h5py.File(self.path / "whole/particles.h5") as a, h5py.File(self.path / folder / f"particles_from_{step:06d}.h5") as b:
+                for field in ("position", "velocity", "damage"):
+                    self.assertEqual(a[f"{field}/000200"][()].tobytes(), b[f"{field}/000200"][()].tobytes(), field)
+        self.assert_other_networks_are_refused(scene, "whole/checkpoints/step_000132.h5")
+
+    def assert_other_networks_are_refused(self, scene, checkpoint):
+        self.write({"scene.toml": scene, "wide.csv": VESSELS.replace("0.3,50", "0.31,50"), "other.csv": VESSELS.replace("artery,neck", "nerve,neck")})
+        for settings, what in ((["network.files=['j.csv','wide.csv']"], "the network is not as it was: its inflow was "),
+                               (["network.files=['j.csv','other.csv']", "coupling.vessel=nerve"], "the chosen vessel was artery, and now is nerve"),
+                               (["coupling.mode=one_way"], 'coupling.mode was "two_way", and now is "one_way"'),
+                               (["cascade.events=2"], "not of a cascade")):
+            with self.subTest(what):
+                words = [word for setting in settings for word in ("--set", setting)]
+                refused = self.rhexis("run", "scene.toml", "-o", "x", "--restart", checkpoint, *words)
+                self.assertEqual(refused.returncode, 2, refused.stderr)
+                self.assertIn(checkpoint, refused.stderr)
+                self.assertIn(what, refused.stderr)
+                self.assertFalse((self.path / "x").exists())
+        told = self.rhexis("run", "scene.toml", "-o", "x", "--restart", checkpoint, "--set", "coupling.window=40 us", "--set", "time.end=0.7 ms")
+        self.assertIn('coupling.window was "20 us", and now is "40 us", from step 132 on', told.stderr)
+
+    def test_a_damaged_table_is_refused_at_a_restart(self):
+        self.run_well(TWO_WAY, "out", "time.end=0.1 ms", "output.checkpoint_every=10")
+        restart = ["run", "out.toml", "-o", "out", "--restart", "out/checkpoints/step_000010.h5"]
+        for file, damage in (("history.csv", lambda rows: rows[:2] + ["x" + rows[2]] + rows[3:]), ("coupling.csv", lambda rows: rows[:3] + rows[2:])):
+            path = self.path / "out" / file
+            whole, before = path.read_text(), (self.path / "out/run.json").read_bytes()
+            path.write_text("".join(damage(whole.splitlines(True))))
+            refused = self.rhexis(*restart)
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertRegex(refused.stderr, rf"out/{file}:[34]: a damaged row: ")
+            self.assertEqual((self.path / "out/run.json").read_bytes(), before)
+            path.write_text(whole)
 
     def test_ranks_and_threads_change_nothing(self):
         """A vessel of a file's network and one of a tree, that tear and bleed into it."""

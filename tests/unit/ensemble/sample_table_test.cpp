@@ -51,12 +51,17 @@ TEST(SampleTable, DropsALineThatACrashCutShort) {
 TEST(SampleTable, NamesFileAndLineOfWhatIsNoSample) {
   EXPECT_NE(message("step,time_s\n").find("samples.csv:1"), std::string::npos);
   std::string header = sample_header;
-  for (const char* line : {"1,2,3", "1,0,1,1,1,2,,,0,5", "1,0,1,1,1,1,,,0,5", "1,0,1,1,1,0,,,0,5,6",
-                           "1,0,1,1,1,0,,,x,5", "1,0,1,1,1,0,,,0,", "1,0.5,1,1,1,0,,,0,5", ""}) {
+  for (const char* line :
+       {"1,2,3", "1,0,1,1,1,2,,,0,5", "1,0,1,1,1,1,,,0,5", "1,0,1,1,1,0,,,0,5,6", "1,0,1,1,1,0,,,x,5",
+        "1,0,1,1,1,0,,,0,", "1,0.5,1,1,1,0,,,0,5", "", "inf,0,1,1,1,0,,,0,5", "1,0,nan,1,1,0,,,0,5",
+        "1,0,1,-1,1,0,,,0,5", "1,-1,1,1,1,0,,,0,5", "1,0,1,1,1,0,,,0,-5", "1,0,1,1,1,1,-1,,0,5",
+        "1,0,1,1,1,0,,,1e999,5"}) {
     EXPECT_NE(message(header + row(samples[0]) + line + "\n").find("samples.csv:3"), std::string::npos)
         << line;
   }
   EXPECT_EQ(message(header + "1,0,1,1,1,0,,,0,5\n"), "");
+  EXPECT_EQ(message(table() + row(samples[0])),
+            "samples.csv:4: a second sample of wall 0 under 13332.238741500001 Pa");
 }
 
 }  // namespace

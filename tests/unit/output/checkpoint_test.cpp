@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "output/hdf5_file.hpp"
 #include "small_disk.hpp"
 #include "synthetic_source.hpp"
 #include "temporary_directory.hpp"
@@ -71,11 +72,14 @@ std::vector<std::uint16_t> words(const WordBlock& block) {
 void write_checkpoint(const std::filesystem::path& path, const Communicator& ranks, int parts) {
   const PointLayout layout = test::divided(columns, rows, ranks, parts);
   const WordBlock block = divided_table(ranks, parts);
-  CheckpointWriter writer(path, ranks);
+  CheckpointWriter writer(path, "1.2.3", ranks);
   writer.write("velocity_x", layout, numbers(layout));
   writer.write("bonds", block, words(block));
   writer.write("step", std::numeric_limits<std::int64_t>::max());
   writer.write("time_s", odd_number);
+  writer.write("happened", true);
+  writer.write("onset", std::optional<double>(0.0));
+  writer.write("never", std::optional<double>());
   writer.write("input", std::string("vessel = \"å\"\n"));
   writer.write("nothing", std::string());
   writer.close();
@@ -102,6 +106,16 @@ void expect_checkpoint(const std::filesystem::path& path, const Communicator& ra
   EXPECT_EQ(time_s, odd_number);
   EXPECT_EQ(input, "vessel = \"å\"\n");
   EXPECT_EQ(nothing, "");
+  bool happened = false;
+  std::optional<double> onset, never = 7;
+  reader.read("happened", happened);
+  reader.read("onset", onset);
+  reader.read("never", never);
+  EXPECT_TRUE(happened);
+  EXPECT_EQ(onset, 0.0);
+  EXPECT_EQ(never, std::nullopt);
+  EXPECT_TRUE(reader.holds("step") && reader.holds("bonds") && reader.holds("input"));
+  EXPECT_FALSE(reader.holds("never"));
 }
 
 TEST(Checkpoint, IsReadOnOtherNumbersOfRanks) {
@@ -121,7 +135,7 @@ TEST(Checkpoint, AnUnfinishedOneLeavesTheEarlierOneAndNothingElse) {
   const TemporaryDirectory directory;
   write_checkpoint(directory / "state.h5", world, 1);
   {
-    CheckpointWriter writer(directory / "state.h5", world);
+    CheckpointWriter writer(directory / "state.h5", "1.2.3", world);
     writer.write("step", std::int64_t{1});
   }
   world.barrier();
@@ -136,7 +150,7 @@ TEST(Checkpoint, AFullDiskIsAnErrorOnAllRanksAndLeavesNothing) {
   const PointLayout layout = test::divided(200, 100, world, 1);
   const std::vector<double> values(static_cast<std::size_t>(layout.local_count()));
   const std::string message = test::message_of<RunError>([&] {
-    CheckpointWriter writer(directory / "state.h5", world);
+    CheckpointWriter writer(directory / "state.h5", "1.2.3", world);
     for (const char* name : {"x", "y", "z"}) writer.write(name, layout, values);
   });
   EXPECT_EQ(message.find((directory / ".state.h5.").string()), 0) << message;
@@ -149,7 +163,7 @@ TEST(Checkpoint, AFullDiskIsAnErrorOnAllRanksAndLeavesNothing) {
 TEST(Checkpoint, WritingWhereThereIsNoFolderIsARunError) {
   const TemporaryDirectory directory;
   const std::string message =
-      test::message_of<RunError>([&] { CheckpointWriter(directory / "no/state.h5", world); });
+      test::message_of<RunError>([&] { CheckpointWriter(directory / "no/state.h5", "1.2.3", world); });
   EXPECT_NE(message.find("no/state.h5: cannot create the file: No such file"), std::string::npos) << message;
 }
 
@@ -186,7 +200,108 @@ TEST(Checkpoint, WhatDiffersIsNamed) {
       test::message_of<InputError>([&] { reader.read("velocity_y", longer, values); });
   EXPECT_NE(missing.find(path.string() + ": cannot open data set velocity_y"), std::string::npos) << missing;
   const std::string attribute = test::message_of<InputError>([&] { reader.read("steps", number); });
-  EXPECT_NE(attribute.find(path.string() + ": cannot open attribute steps"), std::string::npos) << attribute;
+  EXPECT_EQ(attribute, path.string() + ": it does not hold 'steps'");
+}
+
+TEST(Checkpoint, NumbersThatMakeNoSenseAreNamed) {
+  const TemporaryDirectory directory;
+  const auto path = directory / "state.h5";
+  const PointLayout layout = test::divided(columns, rows, world, 1);
+  {
+    CheckpointWriter writer(path, "1.2.3", world);
+    std::vector<double> values = numbers(layout);
+    if (!values.empty()) values.back() = std::numeric_limits<double>::infinity();
+    writer.write("displacement", layout, values);
+    writer.write("step", std::int64_t{-1});
+    writer.write("share", 1.5);
+    writer.write("energy", std::numeric_limits<double>::quiet_NaN());
+    writer.close();
+  }
+  CheckpointReader reader(path, world);
+  const auto message = [&](const auto& read) {
+    const std::string text = test::message_of<InputError>(read);
+    EXPECT_EQ(text.substr(0, path.string().size() + 2), path.string() + ": ");
+    return text.substr(path.string().size() + 2);
+  };
+  std::int64_t step = 0;
+  double number = 0;
+  bool flag = false;
+  std::vector<double> values(static_cast<std::size_t>(layout.local_count()));
+  EXPECT_EQ(message([&] { reader.read("step", step, 0); }).substr(0, 29), "'step' is -1, which makes no ");
+  EXPECT_EQ(message([&] { reader.read("step", flag); }).substr(0, 29), "'step' is -1, which makes no ");
+  EXPECT_EQ(message([&] { reader.read("share", number, 0, 1); }),
+            "'share' is 1.5, which makes no sense (0 to 1 does)");
+  EXPECT_EQ(message([&] { reader.read("energy", number); }).substr(0, 31), "'energy' is nan, which makes no");
+  EXPECT_EQ(message([&] { reader.read("share", step); }), "'share' is a number of another kind");
+  EXPECT_EQ(message([&] { reader.read("displacement", layout, values); }),
+            "'displacement' holds values that are not finite");
+}
+
+/// Changes the byte at `offset` from the end of the first place where `bytes` stand.
+void damage(const std::filesystem::path& path, const std::string& bytes, std::size_t offset) {
+  if (world.is_root()) {
+    std::string text = test::text_of(path);
+    const std::size_t place = text.find(bytes);
+    ASSERT_NE(place, std::string::npos);
+    text[place + bytes.size() - 1 - offset] ^= 0x10;
+    std::ofstream(path, std::ios::binary) << text;
+  }
+  world.barrier();
+}
+
+TEST(Checkpoint, DamageIsRefusedWithTheNameOfWhatItHit) {
+  const TemporaryDirectory directory;
+  const auto path = directory / "state.h5";
+  const auto bytes_of = [](const auto& value) {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  const PointLayout layout = test::divided(columns, rows, world, 1);
+  const WordBlock block = divided_table(world, 1);
+  std::vector<double> values(static_cast<std::size_t>(layout.local_count()));
+  std::vector<std::uint16_t> bonds(static_cast<std::size_t>(block.local_count()));
+  std::string text;
+  const auto damaged = [&](const std::string& bytes, const auto& read) {
+    write_checkpoint(path, world, 1);
+    damage(path, bytes, 0);
+    return test::message_of<InputError>([&] {
+      CheckpointReader reader(path, world);
+      read(reader);
+    });
+  };
+  const std::string start = path.string() + ": the checkpoint is damaged: ",
+                    end = " does not have its checksum";
+  EXPECT_EQ(damaged(bytes_of(1.0 / 7), [&](auto& r) { r.read("velocity_x", layout, values); }),
+            start + "'velocity_x'" + end);
+  EXPECT_EQ(damaged(bytes_of(std::uint16_t{60007}) + bytes_of(std::uint16_t{60008}),
+                    [&](auto& r) { r.read("bonds", block, bonds); }),
+            start + "'bonds'" + end);
+  EXPECT_EQ(damaged("vessel = ", [&](auto& r) { r.read("input", text); }), start + "'input'" + end);
+  // The numbers are among HDF5's own structures, which have checksums of their own.
+  EXPECT_EQ(damaged(bytes_of(odd_number), [](auto&) {}).substr(0, path.string().size() + 2),
+            path.string() + ": ");
+}
+
+TEST(Checkpoint, AnotherFormatIsToldWithItsWriter) {
+  const TemporaryDirectory directory;
+  const auto path = directory / "state.h5";
+  const auto message = [&](const std::string& format, const std::string& writer) {
+    if (world.is_root()) {
+      output::change_structure(path, output::Hdf5File::Mode::create, 0, [&](output::Hdf5File& file) {
+        file.write_attribute("/", "format", format);
+        if (!writer.empty()) file.write_attribute("/", "program_version", writer);
+      });
+    }
+    world.barrier();
+    return test::message_of<InputError>([&] { CheckpointReader(path, world); }).substr(path.string().size());
+  };
+  EXPECT_EQ(
+      message("rhexis checkpoint 4", ""),
+      ": a checkpoint of format 4, which an earlier version of Rhexis wrote; this one reads format 5 alone: "
+      "go on with that version, or start anew");
+  EXPECT_EQ(message("rhexis checkpoint 6", "9.8.7").substr(0, 65),
+            ": a checkpoint of format 6, which version 9.8.7 of Rhexis wrote; t");
+  EXPECT_EQ(message("something else", ""),
+            ": not a checkpoint of Rhexis: its attribute 'format' is missing or says something else");
 }
 
 }  // namespace

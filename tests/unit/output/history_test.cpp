@@ -56,11 +56,14 @@ TEST(History, ARestartWithoutAFileStartsOne) {
 TEST(History, DoesNotTouchAFileThatIsNotAHistory) {
   const test::TemporaryDirectory directory;
   const auto path = directory / "history.csv";
-  for (const std::string& text : {std::string("step,time\n1,2\n"), header + "one,2\n"}) {
+  const std::string row = "0,0,0,0,0,7,0,0,0,0,,0,0\n";
+  for (const std::string& text :
+       {std::string("step,time\n1,2\n"), header + "one,2\n", header + row + row,
+        header + "0,0,0,0,0,7,0,nan,0,0,,0,0\n", header + "0,0,0,0,0,7,0,0,0,0,,0\n"}) {
     if (world.is_root()) std::ofstream(path) << text;
     world.barrier();
     const std::string message = test::message_of<InputError>([&] { History(path, world, 10); });
-    EXPECT_NE(message.find(path.string()), std::string::npos);
+    EXPECT_EQ(message.find(path.string() + ':'), 0u) << message;
     EXPECT_EQ(test::text_of(path), text);
     world.barrier();
   }

@@ -278,6 +278,22 @@ TEST(ResultsFolder, NamesOfResultsStayInside) {
   EXPECT_TRUE(fs::is_directory(directory / "r/event_01/checkpoints"));
 }
 
+TEST(ResultsFolder, ARestartDropsWhatCameAfterItsCheckpoint) {
+  const TemporaryDirectory directory;
+  earlier_run(directory.path(), {"event_01/run.json", "event_02/run.json", "event_02/checkpoints/a.h5"});
+  const ResultsFolder restart(
+      {.directory = directory.path(),
+       .earlier = EarlierResults::keep,
+       .drops = [](const std::string& name) { return name.starts_with("event_02/"); }},
+      world);
+  EXPECT_TRUE(fs::exists(directory / "event_02/run.json"));
+  world.barrier();
+  restart.remove_earlier_results();
+  EXPECT_FALSE(fs::exists(directory / "event_02/run.json"));
+  EXPECT_TRUE(fs::exists(directory / "event_01/run.json"));
+  EXPECT_TRUE(fs::exists(directory / "event_02/checkpoints/a.h5"));
+}
+
 TEST(ResultsFolder, SamplesOfAnEnsembleAreNotRemoved) {
   const TemporaryDirectory directory;
   earlier_run(directory.path(), {"samples.csv"}, "wall\n1\n");

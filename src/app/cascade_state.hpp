@@ -1,0 +1,50 @@
+/// What a cascade has come to between two of its events, as it goes on from it and as it is stored.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/configuration.hpp"
+#include "app/network_tier.hpp"
+#include "output/checkpoint.hpp"
+#include "parallel/communicator.hpp"
+
+namespace rhexis::app {
+
+/// One vessel that was simulated. What followed is known once the network has been solved with what it left.
+struct CascadeEvent {
+  QueriedVessel vessel;
+  double risk = 0;          ///< of that vessel (screening/screening.hpp)
+  double net_pressure = 0;  ///< Pa, the largest on the intact wall
+  /// Whether the wall ruptured; none where an interrupt ended the event before it did.
+  std::optional<bool> ruptured = {};
+  std::optional<double> time = {}, rupture_onset = {};  ///< s, of the onset, in the cascade and in the event
+  double opening = 0;                                   ///< m2, at the event's end
+  double inflow_before = 0;                             ///< m3/s, of the network
+  std::optional<double> inflow_after = {}, leak = {};   ///< m3/s
+  std::optional<std::string> next_vessel = {};
+  std::optional<double> next_risk = {};
+};
+
+struct CascadeState {
+  std::vector<CascadeEvent> events;
+  Aftermath aftermath;
+  double elapsed = 0;             ///< s, simulated in all events
+  std::int64_t steps_before = 0;  ///< of all events, for the numbers of pictures
+};
+
+/// Event `number`, from 1 on, as run.json has it.
+nlohmann::ordered_json to_json(const CascadeEvent& event, std::size_t number);
+
+/// The name by which a checkpoint holds the state.
+inline constexpr const char* cascade_name = "cascade";
+
+/// The root's state. Collective.
+void save_cascade(const CascadeState& state, parallel::Communicator comm, output::CheckpointWriter& file);
+/// The same on every rank. Collective; throws InputError that names the file.
+CascadeState read_cascade(output::CheckpointReader& file);
+
+}  // namespace rhexis::app
