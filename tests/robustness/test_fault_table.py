@@ -4,6 +4,7 @@ Run by ctest as: test_fault_table.py RHEXIS   (with /usr/bin/python3, which has 
 """
 
 import dataclasses
+import io
 import os
 import pathlib
 import subprocess
@@ -11,9 +12,13 @@ import sys
 import tempfile
 import unittest
 
+import h5py
+import numpy
+
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from coupled_case import at_once  # noqa: E402
 from study.program import changes, snapshot  # noqa: E402
+from study.scenes import vtp_network  # noqa: E402
 
 RHEXIS = str(pathlib.Path(sys.argv[1]).resolve())
 
@@ -37,6 +42,10 @@ every_steps = 10
 checkpoint_every = 10
 movie = false
 """
+NETWORK = '[scene]\nmodel = "network"\n[network]\nsource = "file"\nfiles = ["junctions.csv", "vessels.csv"]\n'
+VTP_NETWORK = NETWORK.replace('"junctions.csv", "vessels.csv"', '"network.vtp"') + 'file_length_unit = "mm"\n'
+JUNCTIONS = "id,x [mm],y [mm],z [mm],pressure [mmHg]\nin,0,0,0,100\nout,10,0,0,90\n"
+VESSELS = "id,from,to,radius [mm]\n1,in,out,1\n"
 
 
 @dataclasses.dataclass
@@ -50,9 +59,79 @@ class Fault:
     environment: dict = dataclasses.field(default_factory=dict)
 
 
+# A folder of the user's that looks like results, but that no run has made.
+LOOKS_LIKE_RESULTS = {f"out/{name}": f"my {name}\n" for name in (
+    "notes.txt", "coupling.csv", "vessels.csv", "network.vtp", "movie.mp4", "checkpoints/mine.h5", "images/holiday_001.png", "images/IMG_20240101.png",
+    "event_2024/history.csv", "event_2024/images/party_12.png")}
+
+# Links in a results folder; what they point at is the user's.
+LINKS = {f"out/{name}": f"-> {up}victim/{target}" for name, up, target in (
+    ("history.csv", "../", "hist"), ("run.json", "../", "run"), ("particles.h5", "../", "h5"), ("particles.xdmf", "../", "xdmf"),
+    ("history.csv.part", "../", "part"), ("run.json.spare", "../", "spare"), (".rhexis-write-test", "../", "probe"), ("images", "../", "images"),
+    ("checkpoints/step_000010.h5", "../../", "cp"), ("checkpoints/step_000020.h5.part", "../../", "cp"))}
+VICTIMS = {f"victim/{name}": "SECRET\n" for name in ("hist", "run", "h5", "xdmf", "part", "spare", "probe", "images/x_001.png", "cp")}
+
+FOLDERS = [
+    Fault("results over a VTP file that is read", 2, ["network.vtp"], {"network.vtp": vtp_network()}, VTP_NETWORK,
+          ["run", "s.toml", "-o", ".", "--quiet", "--set", "network.vtp=true"]),
+    Fault("results beside a VTP file that is read", 0, [], {"network.vtp": vtp_network()}, VTP_NETWORK, ["run", "s.toml", "-o", ".", "--quiet"]),
+    Fault("links in the results folder", 2, ["link"], {**LINKS, **VICTIMS}),
+    Fault("links to what no result is called", 0, [], {**{name: to for name, to in LINKS.items() if name.endswith(("part", "spare", "test"))},
+                                                       **VICTIMS}),
+    Fault("a results folder of 240 letters", 0, [], command=["run", "s.toml", "-o", "e" * 240, "--quiet"]),
+    Fault("results over the input", 2, ["vessels.csv"], {"junctions.csv": JUNCTIONS, "vessels.csv": VESSELS}, NETWORK, ["run", "s.toml", "-o", ".",
+                                                                                                                        "--quiet"]),
+    Fault("a file of the user's where a result must go", 2, ["history.csv"], {**LOOKS_LIKE_RESULTS, "out/history.csv": "mine\n"}),
+    Fault("files of the user's beside the results", 0, [], LOOKS_LIKE_RESULTS),
+]
+
+
 INPUTS = [
     Fault("a key that begins with an accent", 2, ["s.toml:5", "'é'"], scene=VESSEL.replace("[discretisation]", "élength = 1\n[discretisation]")),
 ]
+
+
+def of_dataset(name, change):
+    def damage(file):
+        data = file[name][()]
+        change(data)
+        file[name][...] = data
+    return damage
+
+
+def flip_a_bit(data):
+    data.view("u1").flat[data.nbytes // 2] ^= 1
+
+
+def other_number(name, value):
+    def damage(file):
+        del file.attrs[name]
+        file.attrs[name] = value
+    return damage
+
+
+# Damage to a checkpoint, and what the refusal names.
+CHECKPOINTS = [
+    ("3 x 3 numbers where one was", other_number("step", numpy.ones((3, 3), "i8")), "step"),
+    ("a text where a number was", other_number("load_speed", "fast"), "load_speed"),
+    ("a step that is never reached", other_number("step", -4_600_000_000_000_000_000), "numbers"),
+    ("work beyond all", other_number("external_work_0", 1e308), "numbers"),
+    ("a bit of a displacement", of_dataset("displacement_x", flip_a_bit), "displacement_x"),
+    ("a bit of a bond", of_dataset("intact_bonds", flip_a_bit), "intact_bonds"),
+    ("a bit of the input", of_dataset("input", flip_a_bit), "input"),
+]
+
+
+def script(*lines, channel="particles"):
+    """A script that asks for a channel and does nothing else, and these lines."""
+    return "\n".join([f'from paraview.simple import *\nparticles = PVTrivialProducer(registrationName="{channel}")', *lines]) + "\n"
+
+
+def drawing(name, status, said, scripts, *settings):
+    """A run that a script, or several, looks at."""
+    names = [f"{chr(ord('a') + i)}.py" for i in range(len(scripts))]
+    words = [word for setting in (f"insitu.scripts={names}".replace("'", '"'), *settings) for word in ("--set", setting)]
+    return Fault(name, status, said, dict(zip(names, scripts)), command=["run", "s.toml", "-o", "out", "--quiet", *words])
 
 
 class FaultTable(unittest.TestCase):
@@ -97,8 +176,39 @@ class FaultTable(unittest.TestCase):
                     after = {name: after.get(name) for name in files}
                 self.assertEqual(changes(files, after), [])
 
+    def test_folders(self):
+        self.check_all(FOLDERS)
+
+    def test_earlier_results_stay_until_scripts_compile(self):
+        self.needs_pictures()
+        fault = drawing("", 2, ["SyntaxError"], ["def f(:\n"])
+        folder = self.prepare(fault, "stay")
+        self.assertEqual(self.rhexis(folder, ["run", "s.toml", "-o", "out", "--quiet"]).returncode, 0)
+        before = snapshot(folder)
+        self.assertEqual(self.rhexis(folder, fault.command).returncode, 2)
+        self.assertEqual(changes(before, snapshot(folder)), [])
+
+    def needs_pictures(self):
+        if "Catalyst" not in self.rhexis(self.path, ["--version"]).stdout:
+            self.skipTest("built without ParaView")
+
     def test_inputs(self):
         self.check_all(INPUTS)
+
+
+    def test_checkpoints(self):
+        good = self.prepare(Fault("", 0, []), "good")
+        result = self.rhexis(good, ["run", "s.toml", "-o", "out", "--quiet"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        faults = []
+        for name, damage, said in CHECKPOINTS:
+            with h5py.File(io.BytesIO((good / "out/checkpoints/step_000010.h5").read_bytes()), "r+") as file:
+                damage(file)
+                file.flush()
+                damaged = file.id.get_file_image()
+            faults.append(Fault(name, 2, ["damaged.h5", said], {"damaged.h5": damaged}, command=["run", "s.toml", "-o", "out", "--quiet", "--restart",
+                                                                                                 "damaged.h5"]))
+        self.check_all(faults)
 
 
 if __name__ == "__main__":

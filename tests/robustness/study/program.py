@@ -34,7 +34,7 @@ class Program:
     mpirun: tuple
     memory_kib: int = 3 << 20  # of address space, for each rank
     processor_s: int = 20
-    seconds: float = 240  # of waiting, on however busy a machine
+    seconds: float = 900  # of waiting, on however busy a machine
 
     def limits(self):
         """A command that runs the one after it within the limits; beyond that of processor time it gets SIGXCPU, then SIGKILL."""
