@@ -5,7 +5,8 @@
 
 A script runs once from top to bottom at the first picture and builds a pipeline, just as in pvpython; then, at
 every later step, ParaView passes new data through it and writes what the extractors ask for.
-Easier still: open results/.../particles.xdmf in ParaView, make a picture, and choose File > Save Catalyst State.
+Easier still: open results/.../particles.xdmf in ParaView, make a picture, and choose File > Save Catalyst State: readers
+of results become sources of the run. More in docs/pictures.md.
 """
 
 from paraview import catalyst
@@ -26,7 +27,7 @@ from paraview.simple import (
 # flow (m3/s), radius (m), generation, kind (0 artery, 1 vein, 2 unknown), wall_shear_stress (Pa), hoop_strain.
 fields = ["damage"]
 
-# The particles, as points. With them come numbers such as `pressure` (Pa), `time` (s) and `step`, as field data.
+# The particles, as points: copies, so that nothing here changes the run. With them come numbers such as `pressure` (Pa), `time` (s) and `step`, as field data.
 particles = PVTrivialProducer(registrationName="particles")
 
 view = CreateRenderView()
@@ -49,8 +50,8 @@ view.CameraFocalPoint = [0.0, 0.0, 0.0]
 view.CameraViewUp = [0.0, 0.0, 1.0]
 ResetCamera(view)
 
-# One image every time that the program offers data (2: at every even step number, and so on). Files go to the
-# image directory of the run, whatever directory a script names.
+# One image every time that the program offers data (2: at every even step number, and so on). Files of extractors go to
+# the run's folder of images; a name that would lead out of it, or that two extractors share, is refused before the run.
 image = CreateExtractor("PNG", view, registrationName="image")
 image.Writer.FileName = "damage_{timestep:06d}.png"
 image.Writer.ImageResolution = [800, 600]

@@ -80,6 +80,9 @@ int carry_out(const Command& command, parallel::Communicator comm) {
   options.command = command.arguments;
   options.started = started;
   if (command.action == Action::check) {
+    if (!configuration.no_pictures.empty())
+      configuration.warnings.push_back("insitu.scripts: there can be no pictures: " +
+                                       configuration.no_pictures);
     output::refuse_obstacles(folder_plan(configuration, options), comm);
     check(configuration, comm);
     return 0;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/pictures.hpp"
 #include "app/scene_keys.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
@@ -58,15 +59,6 @@ std::string read_on_root(const std::string& file, parallel::Communicator comm) {
   std::string text;
   parallel::on_root<InputError>(comm, [&] { text = input::read_text(file); });
   return comm.broadcast(text);
-}
-
-/// A script is a Python file, or a package.
-void refuse_what_is_no_script(const std::vector<std::string>& files) {
-  for (const std::filesystem::path file : files) {
-    if (file.extension() == ".py" || std::filesystem::exists(file / "__init__.py")) continue;
-    throw InputError(file.string() + " is no Python file (.py), nor a folder with __init__.py",
-                     "insitu.scripts");
-  }
 }
 
 void settle_time_step(Configuration& c) {
@@ -324,10 +316,7 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
     }
     const bool stores = c.model == "vessel" ? !c.output.fields.empty() : !c.is_ensemble();
     if (stores && c.output.format != "xdmf") warn_of_an_old_paraview(c);
-    if (c.insitu.enabled) {
-      find_files(c.insitu.scripts, "insitu.scripts", "Catalyst script", c.file, comm);
-      parallel::on_root<InputError>(comm, [&] { refuse_what_is_no_script(c.insitu.scripts); });
-    }
+    find_scripts(c, comm);
   } catch (const InputError& error) {
     throw input::located(error, c.resolved);
   }

@@ -50,6 +50,7 @@ struct Configuration {
   long steps = 0;
   std::vector<long> output_steps;
   std::vector<std::string> warnings;
+  std::string no_pictures;        ///< why there can be none, where scripts are named; else empty
   input::Resolved resolved;       ///< for messages about values that do not fit together
   nlohmann::ordered_json record;  ///< as resolved, for run.json
 };

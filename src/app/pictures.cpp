@@ -1,7 +1,21 @@
 #include "app/pictures.hpp"
 
+#include <algorithm>
+#include <charconv>
+#include <limits>
+
+#include "app/configuration.hpp"
+#include "hemodynamics/vessel_lines.hpp"
+#include "input/wording.hpp"
+#include "parallel/together.hpp"
+#include "peridynamics/particle_source.hpp"
+
 namespace rhexis::app {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* key = "insitu.scripts";
 
 insitu::Renderer renderer(const std::string& name) {
   if (name == "osmesa") return insitu::Renderer::osmesa;
@@ -10,15 +24,108 @@ insitu::Renderer renderer(const std::string& name) {
   return insitu::Renderer::automatic;
 }
 
+std::vector<std::string> names_of(std::span<const FieldInfo> fields) {
+  std::vector<std::string> names;
+  for (const FieldInfo& field : fields) names.emplace_back(field.name);
+  return names;
+}
+
+insitu::Settings settings_for(const Configuration& c, const fs::path& results) {
+  insitu::Settings settings;
+  settings.scripts = c.insitu.scripts;
+  settings.image_directory = (results / "images").string();
+  settings.renderer = renderer(c.insitu.renderer);
+  if (c.model != "network") settings.particle_fields = names_of(peridynamics::ParticleSource::all_fields());
+  if (c.model != "vessel") settings.network_fields = names_of(hemodynamics::VesselLines().fields());
+  settings.live = c.insitu.live;
+  // A run that is watched may be paused.
+  settings.time_limit_s =
+      c.insitu.live.empty() ? c.insitu.time_limit : std::numeric_limits<double>::infinity();
+  return settings;
+}
+
+/// Rhexis's own scripts: installed beside the program, or in the source tree.
+fs::path own_scripts() {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  const fs::path installed = program.parent_path().parent_path() / "share" / "rhexis" / "catalyst_scripts";
+  std::error_code ignored;
+  return fs::exists(installed, ignored) ? installed : fs::path(RHEXIS_SCRIPT_DIR);
+}
+
+bool is_package(const fs::path& path) {
+  return fs::exists(path / "__init__.py");
+}
+
+/// Of a plain name, e.g. "vessel".
+fs::path own_script(const std::string& name) {
+  const fs::path folder = own_scripts();
+  std::vector<std::string> known;
+  for (const char* script : {"coupled", "network", "template", "vessel"})
+    if (fs::exists(folder / (std::string(script) + ".py"))) known.emplace_back(script);
+  if (std::ranges::find(known, name) != known.end()) return folder / (name + ".py");
+  if (known.empty()) throw InputError("Rhexis's own scripts are not in " + folder.string(), key);
+  throw InputError("there is no script of this name; there are " + input::quoted_list(known) +
+                       input::did_you_mean(input::closest(name, known)) +
+                       "; a path says where one of yours is, " + input::in_quotes("./" + name + ".py"),
+                   key);
+}
+
+/// A path is looked for from the working folder first (what is typed at the terminal), then from the input
+/// file's folder (what an input file says of its neighbours).
+fs::path find_script(const std::string& script, const fs::path& input_folder) {
+  const fs::path here = script, beside = input_folder / script;
+  const bool plain = here.filename() == here && !here.has_extension();
+  for (const fs::path& path : {here, beside})
+    if (plain ? is_package(path) : fs::exists(path)) return path;
+  if (plain) return own_script(script);
+  const std::string first = fs::absolute(here).lexically_normal().string(),
+                    second = fs::absolute(beside).lexically_normal().string();
+  throw InputError("there is no Catalyst script " + first + (first == second ? "" : " or " + second), key);
+}
+
+void check_address(const std::string& live) {
+  const std::size_t colon = live.rfind(':');
+  unsigned port = 0;
+  const char* end = live.data() + live.size();
+  const bool is_address = colon != std::string::npos && colon > 0 &&
+                          std::from_chars(live.data() + colon + 1, end, port).ptr == end && port >= 1 &&
+                          port <= 65535;
+  if (!live.empty() && !is_address)
+    throw InputError("must be host:port with a port from 1 to 65535, e.g. \"localhost:22222\"",
+                     "insitu.live");
+}
+
 }  // namespace
 
-Pictures start_pictures(const insitu::Parameters& parameters, const std::filesystem::path& results,
-                        parallel::Communicator comm) {
-  if (!parameters.enabled) return {.pipeline = nullptr, .description = "off (insitu.enabled = false)"};
-  if (parameters.scripts.empty()) return {.pipeline = nullptr, .description = "off (no insitu.scripts)"};
+void find_scripts(Configuration& c, parallel::Communicator comm) {
+  if (!c.insitu.enabled || c.insitu.scripts.empty()) return;
+  check_address(c.insitu.live);
+  for (std::string& script : c.insitu.scripts) {
+    std::string found;
+    // By the root rank, for ranks may see other files.
+    parallel::on_root<InputError>(comm, [&] {
+      const fs::path path = fs::canonical(find_script(script, fs::path(c.file).parent_path()));
+      if (path.extension() != ".py" && !is_package(path))
+        throw InputError(path.string() + " is no Python file (.py), nor a folder with __init__.py", key);
+      found = path.string();
+    });
+    script = comm.broadcast(found);
+  }
   try {
-    auto pipeline = insitu::load_pipeline(
-        {parameters.scripts, (results / "images").string(), renderer(parameters.renderer)}, comm);
+    c.no_pictures = insitu::inspect_scripts(settings_for(c, {}), comm);
+  } catch (const InputError& error) {
+    throw InputError(error.what(), key);
+  }
+}
+
+Pictures start_pictures(const Configuration& c, const fs::path& results, parallel::Communicator comm,
+                        std::function<void(const std::string&)> before_abort) {
+  if (!c.insitu.enabled) return {.pipeline = nullptr, .description = "off (insitu.enabled = false)"};
+  if (c.insitu.scripts.empty()) return {.pipeline = nullptr, .description = "off (no insitu.scripts)"};
+  try {
+    insitu::Settings settings = settings_for(c, results);
+    settings.before_abort = std::move(before_abort);
+    auto pipeline = insitu::load_pipeline(settings, comm);
     std::string description = pipeline->description();
     return {.pipeline = std::move(pipeline), .description = std::move(description)};
   } catch (const insitu::NotAvailable& reason) {

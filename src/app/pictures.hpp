@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -19,9 +20,17 @@ struct Pictures {
   double seconds_before = 0;
 };
 
-/// Collective. Throws InputError for a bad script.
-Pictures start_pictures(const insitu::Parameters& parameters, const std::filesystem::path& results,
-                        parallel::Communicator comm);
+struct Configuration;
+
+/// The scripts named in the input become absolute paths: of Rhexis's own by a plain name, of the user's by a
+/// path. Then reads them without running them, where there can be pictures; what is wrong with one is an
+/// InputError of the key insitu.scripts. Collective.
+void find_scripts(Configuration& c, parallel::Communicator comm);
+
+/// Collective. Throws InputError for a script that has become bad since `find_scripts`. `before_abort`: see
+/// insitu::Settings.
+Pictures start_pictures(const Configuration& c, const std::filesystem::path& results,
+                        parallel::Communicator comm, std::function<void(const std::string&)> before_abort);
 
 /// A run's particles with the steps and seconds of the runs before.
 class LaterSource : public PointSource {

@@ -92,7 +92,10 @@ void RunBase::start_insitu() {
   const Stopwatch watch(spent_.insitu);
   pictures_ = options_.pictures;
   if (!pictures_)
-    pictures_ = std::make_shared<Pictures>(start_pictures(c_.insitu, options_.directory, comm_));
+    pictures_ = std::make_shared<Pictures>(
+        start_pictures(c_, options_.directory, comm_, [this](const std::string& reason) {
+          if (record_) record_->fail_alone(reason);
+        }));
 }
 
 void RunBase::finish_insitu() {

@@ -28,8 +28,8 @@ inline bool has_plugin(const std::string& library) {
 inline void* open_plugin(const std::string& library, int mode, std::string& reason) {
   const auto path = plugin_path(library);
   if (!has_plugin(library)) {
-    reason =
-        "not available: no " + path.string() + " (built only where ParaView's development files are found)";
+    reason = "not available: there is no " + path.string() +
+             " (its folder is `lib` beside the program's, or what RHEXIS_PLUGIN_DIR says)";
     return nullptr;
   }
   void* plugin = dlopen(path.c_str(), mode);

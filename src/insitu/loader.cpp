@@ -1,6 +1,7 @@
 #include "core/plugin.hpp"
 #include "insitu/pipeline.hpp"
 #include "insitu/window/libraries.hpp"
+#include "parallel/together.hpp"
 
 namespace rhexis::insitu {
 namespace {
@@ -9,6 +10,10 @@ constexpr const char* library = "librhexis_catalyst.so";
 
 /// Opens the plugin; `reason` says why where it cannot be.
 void* open(const Settings& settings, std::string& reason) {
+  if (!plugin_available() && *RHEXIS_NOT_BUILT != '\0') {
+    reason = std::string("not available: ") + RHEXIS_NOT_BUILT;
+    return nullptr;
+  }
   // OSMesa first: whoever comes first in the global scope provides the gl... functions that VTK calls
   // directly.
   const bool may_be_osmesa =
@@ -23,6 +28,16 @@ void* open(const Settings& settings, std::string& reason) {
 
 bool plugin_available() {
   return has_plugin(library);
+}
+
+std::string inspect_scripts(const Settings& settings, parallel::Communicator communicator) {
+  std::string reason;
+  void* plugin = open(settings, reason);
+  reason = communicator.first_non_empty(reason);
+  if (!reason.empty()) return reason;
+  auto* inspect = reinterpret_cast<InspectScripts*>(dlsym(plugin, inspect_scripts_symbol));
+  parallel::together<InputError>(communicator, [&] { inspect(settings); });
+  return {};
 }
 
 std::unique_ptr<Pipeline> load_pipeline(const Settings& settings, parallel::Communicator communicator) {

@@ -7,8 +7,9 @@ ParameterList declare(Parameters& p) {
       {"insitu.enabled", &p.enabled, "", "true",
        "Make pictures with ParaView Catalyst while the program runs, where scripts are named.", ""},
       {"insitu.scripts", &p.scripts, "", "[]",
-       "Catalyst scripts (Python) to run: looked for from the working folder, then from the input file's "
-       "folder.",
+       "Catalyst scripts (Python) to run: \"vessel\", \"network\", \"coupled\" are Rhexis's own; a path "
+       "(my.py) is "
+       "looked for from the working folder, then from the input file's folder.",
        ""},
       only_with({"insitu.scripts", {}},
                 {"insitu.every_steps", &p.every_steps, "1", "\"auto\"",
@@ -22,6 +23,15 @@ ParameterList declare(Parameters& p) {
                                          "",
                                          {},
                                          {"auto", "osmesa", "egl", "x11"}}),
+      only_with({"insitu.scripts", {}},
+                {"insitu.time_limit", &p.time_limit, "s", "\"10 min\"",
+                 "How long a script may take for the pictures of one step before the run ends with an error.",
+                 "", Range::positive()}),
+      only_with({"insitu.scripts", {}},
+                {"insitu.live", &p.live, "", "\"\"",
+                 "Where a ParaView listens to watch the run (Catalyst > Connect), as host:port, e.g. "
+                 "\"localhost:22222\"; empty: nowhere. Nobody has to listen.",
+                 ""}),
   };
 }
 

@@ -14,7 +14,9 @@ struct Parameters {
   bool enabled = false;
   std::vector<std::string> scripts;
   std::optional<std::int64_t> every_steps;
-  std::string renderer;  ///< "auto" | "osmesa" | "egl" | "x11"
+  std::string renderer;   ///< "auto" | "osmesa" | "egl" | "x11"
+  double time_limit = 0;  ///< s, of one script at one picture
+  std::string live;       ///< "host:port"; empty: nobody is told
 };
 
 ParameterList declare(Parameters& p);

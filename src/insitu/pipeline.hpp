@@ -9,7 +9,9 @@
 ///     pipeline->finish();                               // before MPI ends
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +28,15 @@ enum class Renderer { automatic, osmesa, egl, x11 };
 struct Settings {
   std::vector<std::string>
       scripts;                  ///< absolute paths of Catalyst V2 Python scripts (.py or package folders)
-  std::string image_directory;  ///< every extract of every script lands here; made if missing
+  std::string image_directory;  ///< every extract of every script lands here; made with the first picture
   Renderer renderer = Renderer::automatic;
+  /// Names of the fields of the channels `particles` and `network`; nothing: the run has no such channel.
+  std::optional<std::vector<std::string>> particle_fields, network_fields;
+  double time_limit_s = 600;  ///< of one script at one step
+  std::string live;           ///< host:port where ParaView listens (Catalyst Live); empty: nobody
+  /// Told the reason before the program is ended because a script does not end (on this rank; perhaps on
+  /// another thread than the caller's, which then does nothing any more).
+  std::function<void(const std::string&)> before_abort;
 };
 
 /// The plugin is not there, or the system lacks what it needs; the message says which.
@@ -43,15 +52,17 @@ struct Channels {
 };
 
 /// Catalyst scripts at work on what a run shows, which they know as the channels `particles` and `network`
-/// (or by the names of the saved files, `particles.xdmf` and `network.xdmf`).
+/// (or by the names of the saved files, `particles.xdmf` and `network.xdmf`; a reader of any saved file
+/// becomes a source of the run).
 ///
 /// A script says which fields it needs by lines such as
 ///     fields = ["displacement", "damage"]      # of the particles
 ///     network_fields = ["pressure", "radius"]  # of the network
-/// (literal strings, outside any function). Without a channel's line it gets all fields of that channel if it
-/// names the channel (as `registrationName` or to `GetTrivialProducer`), and if it says nothing of either,
-/// all of both. A channel that a script does not ask for is not made for it. All calls are collective, and
-/// what they throw they throw on every rank.
+/// (literal strings, outside any function), or, where it was exported from ParaView, by what it selects of a
+/// reader (`PointArrayStatus`). Without either it gets all fields of a channel that it names (as
+/// `registrationName`, to `GetTrivialProducer`, or by the file of results that a reader would read), and if
+/// it says nothing of either channel, all of both. A channel that a script does not ask for is not made for
+/// it. All calls are collective, and what they throw they throw on every rank.
 class Pipeline {
  public:
   Pipeline() = default;
@@ -66,11 +77,12 @@ class Pipeline {
   /// until then the answer is yes.
   virtual bool wants(long step, double time_s) = 0;
 
-  /// Runs the scripts that want this step. The sources' memory is read, not copied, and not touched after the
-  /// return. Throws RunError, naming script, line and reason, if a script fails on any rank, or asks for a
-  /// channel that the run does not have or a field that the channel does not have. Should ranks get
-  /// stuck because a script raised on one while the others wait for it inside ParaView, the program is ended
-  /// (MPI_Abort, status 3) after RHEXIS_SCRIPT_TIMEOUT seconds (environment variable, default 60).
+  /// Runs the scripts that want this step, each on copies of what it asks for. Throws RunError, naming
+  /// script, line and reason, if a script fails on any rank, takes longer than the limit, or leaves the
+  /// process changed (working folder, handlers of signals ...). Should ranks get stuck because a script
+  /// raised on one while the others wait for it inside ParaView, or should a script wait for ever inside a
+  /// library, the program is ended (MPI_Abort, status 3) after RHEXIS_SCRIPT_TIMEOUT seconds (environment
+  /// variable, default 60).
   virtual void process(const Channels& channels) = 0;
 
   /// Ends scripts and ParaView (as the destructor does, which however cannot tell that a script failed in
@@ -78,16 +90,24 @@ class Pipeline {
   virtual void finish() = 0;
 };
 
-/// Loads the plugin and checks the scripts (there? syntax? fields?) without running them. The plugin is
-/// looked for in the folder RHEXIS_PLUGIN_DIR (environment variable) or else in `../lib` beside the program's
-/// folder. Throws NotAvailable without ParaView, RunError for a bad script.
+/// Reads the scripts without running them, as `load_pipeline` does, and without starting ParaView: throws
+/// InputError, naming script, line and reason, for what cannot be read or parsed, for a channel or field that
+/// the run does not have, for files of two scripts that would have one name. Collective. Returns why there
+/// can be no pictures; empty if there can.
+std::string inspect_scripts(const Settings& settings, parallel::Communicator communicator);
+
+/// Loads the plugin, starts ParaView and checks the scripts without running them. The plugin is looked for in
+/// the folder RHEXIS_PLUGIN_DIR (environment variable) or else in `../lib` beside the program's folder.
+/// Throws NotAvailable without ParaView, RunError for a bad script.
 std::unique_ptr<Pipeline> load_pipeline(const Settings& settings, parallel::Communicator communicator);
 
 /// Whether the plugin's file is in its place; costs nothing.
 bool plugin_available();
 
-/// The plugin's one entry point, found by name.
+/// The plugin's entry points, found by name.
 using CreatePipeline = Pipeline*(const Settings&, parallel::Communicator);
 inline constexpr const char* create_pipeline_symbol = "rhexis_create_pipeline";
+using InspectScripts = void(const Settings&);
+inline constexpr const char* inspect_scripts_symbol = "rhexis_inspect_scripts";
 
 }  // namespace rhexis::insitu

@@ -3,11 +3,13 @@
 //   insitu_driver IMAGE_DIRECTORY RENDERER CHANNELS FRAMES SCRIPT...
 // CHANNELS: particles | network | both; a network may say of what kind, e.g. network:spatial:11 (planar,
 // spatial, unknown; generations of each tree; 4 without).
+// Environment: DRIVER_TIME_LIMIT (s), DRIVER_LIVE (host:port).
 // Prints JSON lines: one when loaded, one per frame, one at the end; `error: ...` on failure (status 3).
 #include <sys/resource.h>
 
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 
 #include "insitu/pipeline.hpp"
@@ -30,18 +32,29 @@ void print_asked(const std::map<std::string, int>& asked) {
   }
 }
 
-void run(const rhexis::insitu::Settings& settings, const std::string& channels, int frames,
+std::vector<std::string> names_of(std::span<const rhexis::FieldInfo> fields) {
+  std::vector<std::string> names;
+  for (const rhexis::FieldInfo& field : fields) names.emplace_back(field.name);
+  return names;
+}
+
+void run(rhexis::insitu::Settings settings, const std::string& channels, int frames,
          rhexis::parallel::Communicator world) {
   const double start = now_s();
+  rhexis::test::SyntheticVessel vessel(world.rank(), world.size());
+  rhexis::test::SyntheticNetwork network(channels, world.rank(), world.size());
+  const bool with_vessel = !channels.starts_with("network"), with_network = channels != "particles";
+  if (with_vessel) settings.particle_fields = names_of(vessel.fields());
+  if (with_network) settings.network_fields = names_of(network.fields());
+  if (const char* limit = std::getenv("DRIVER_TIME_LIMIT")) settings.time_limit_s = std::stod(limit);
+  if (const char* live = std::getenv("DRIVER_LIVE")) settings.live = live;
+  settings.before_abort = [](const std::string& reason) { std::printf("record: %s\n", reason.c_str()); };
   const auto pipeline = rhexis::insitu::load_pipeline(settings, world);
   if (world.is_root()) {
     std::printf(R"({"description": "%s", "seconds": %.3f})"
                 "\n",
                 pipeline->description().c_str(), now_s() - start);
   }
-  rhexis::test::SyntheticVessel vessel(world.rank(), world.size());
-  rhexis::test::SyntheticNetwork network(channels, world.rank(), world.size());
-  const bool with_vessel = !channels.starts_with("network"), with_network = channels != "particles";
   for (int frame = 0; frame < frames; ++frame) {
     const double begin = now_s();
     const double progress = frames > 1 ? static_cast<double>(frame) / (frames - 1) : 1;
@@ -79,8 +92,11 @@ int main(int argc, char** argv) {
                                                      {"egl", Renderer::egl},
                                                      {"x11", Renderer::x11}};
   try {
-    run({.scripts = {argv + 5, argv + argc}, .image_directory = argv[1], .renderer = renderers.at(argv[2])},
-        argv[3], std::stoi(argv[4]), world);
+    rhexis::insitu::Settings settings;
+    settings.scripts = {argv + 5, argv + argc};
+    settings.image_directory = argv[1];
+    settings.renderer = renderers.at(argv[2]);
+    run(settings, argv[3], std::stoi(argv[4]), world);
   } catch (const rhexis::insitu::NotAvailable& error) {
     if (world.is_root()) std::printf("%s\n", error.what());
     return 4;

@@ -100,8 +100,7 @@ class Pictures(DriverTest):
             '    assert data.GetNumberOfPoints() == data.GetNumberOfCells() == 54800\n'
         )
         asked = json.loads(self.run_driver(script)[-1])["asked"]
-        self.assertEqual(set(asked.values()), {2})
-        self.assertEqual(len(asked), 5)
+        self.assertEqual(asked, {"damage": 2})
 
     def test_egl_draws_the_same(self):
         template = SOURCE / "catalyst_scripts" / "template.py"
@@ -207,14 +206,14 @@ class Networks(DriverTest):
         for script, channels, missing in ((NETWORK, "particles", "network"), (VESSEL, "network", "particles")):
             for ranks in (1, 2):
                 self.assertIn(
-                    f"Catalyst script {script} asks for the channel '{missing}', which this run does not have; "
+                    f"Catalyst script {script}: asks for the channel '{missing}', which this run does not have; "
                     f"there are: {channels}",
                     self.failure(script, channels=channels, ranks=ranks),
                 )
 
     def test_unknown_field_and_bad_list(self):
         script = self.script('network_fields = ["presure"]\n')
-        self.assertIn(f"{script} asks for the field 'presure'; there are: pressure, flow, ",
+        self.assertIn(f"{script}, line 1: asks for the field 'presure'; there are: pressure, flow, ",
                       self.failure(script, channels="network"))
         script = self.script("network_fields = 5\n")
         self.assertIn('line 1: network_fields must be a list of names, e.g. network_fields = ["pressure"]',
@@ -227,10 +226,18 @@ class Networks(DriverTest):
 
 
 class Absent(DriverTest):
+    def reason(self, folder):
+        with unittest.mock.patch.dict(ENVIRONMENT, RHEXIS_PLUGIN_DIR=str(folder)):
+            return self.run_driver(VESSEL, status=4)[0]
+
     def test_without_plugin_the_reason_is_given(self):
-        with unittest.mock.patch.dict(ENVIRONMENT, RHEXIS_PLUGIN_DIR="/nowhere"):
-            lines = self.run_driver(VESSEL, status=4)
-        self.assertIn("no /nowhere/librhexis_catalyst.so", lines[0])
+        built = f"there is no {self.folder}/librhexis_catalyst.so"
+        self.assertIn(built if BUILT else "when Rhexis was built", self.reason(self.folder).replace("with RHEXIS_INSITU=OFF", "when Rhexis was built"))
+
+    @unittest.skipUnless(BUILT, "built without ParaView")
+    def test_a_plugin_that_cannot_be_loaded(self):
+        (self.folder / "librhexis_catalyst.so").write_text("no library")
+        self.assertIn("not available: " + str(self.folder / "librhexis_catalyst.so") + ": file too short", self.reason(self.folder))
 
 
 @unittest.skipUnless(BUILT, "built without ParaView")
@@ -242,10 +249,6 @@ class Failures(DriverTest):
         self.assertEqual(self.failure(missing, ranks=2),
                          f"Catalyst script {missing}: No such file or directory (on rank 0)")
 
-    def test_syntax_error(self):
-        script = self.script("x = 1\nfor in x:\n")
-        self.assertEqual(self.failure(script), f"Catalyst script {script}, line 2: SyntaxError: invalid syntax")
-
     def test_package_with_an_error(self):
         package = self.folder / "package"
         package.mkdir()
@@ -253,10 +256,6 @@ class Failures(DriverTest):
         (package / "part.py").write_text("")
         self.assertIn(f"{package / '__init__.py'}, line 3: ImportError: cannot import name 'nothing'",
                       self.failure(package))
-
-    def test_unknown_field(self):
-        script = self.script('fields = ["damag"]\n')
-        self.assertIn(f"{script} asks for the field 'damag'; there are: displacement, ", self.failure(script))
 
     def test_raising_at_start_on_one_rank(self):
         script = self.script(RANK + MINIMAL + "if rank == 1: 1 / 0\n")

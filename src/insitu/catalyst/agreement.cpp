@@ -1,18 +1,43 @@
 #include "insitu/catalyst/agreement.hpp"
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>
 
 namespace rhexis::insitu {
+namespace {
 
-Agreement::Agreement(parallel::Communicator communicator) : communicator_(communicator) {
+/// Seconds that a rank whose script failed waits for the others.
+double stuck_limit_s() {
   const char* limit = std::getenv("RHEXIS_SCRIPT_TIMEOUT");
-  if (limit != nullptr) limit_s_ = std::strtod(limit, nullptr);
+  return limit != nullptr ? std::strtod(limit, nullptr) : 60;
+}
+
+}  // namespace
+
+Agreement::Agreement(parallel::Communicator communicator, double time_limit_s,
+                     std::function<void(const std::string&)> before_abort)
+    : communicator_(communicator),
+      before_abort_(std::move(before_abort)),
+      stuck_limit_s_(stuck_limit_s()),
+      // A rank whose script could be interrupted knows its line: it ends the program before those that wait
+      // for it.
+      time_limit_(time_limit_s, stuck_limit_s_ + 2,
+                  [this](const std::string& reason) { end_program(reason); }) {}
+
+void Agreement::end_program(const std::string& reason) const {
+  std::fprintf(stderr, "error: %s\n", reason.c_str());
+  std::fflush(nullptr);
+  if (before_abort_) before_abort_(reason);
+  if (communicator_.size() == 1) _exit(3);
+  communicator_.abort(3);
 }
 
 std::string Agreement::agree(const std::string& text) {
+  const TimeLimit::Pause waits(time_limit_);
   await_others(text);
   std::string mine = text;
   if (!mine.empty() && communicator_.size() > 1)
@@ -32,14 +57,9 @@ void Agreement::await_others(const std::string& text) const {
   const auto start = std::chrono::steady_clock::now();
   int arrived = 0;
   while (MPI_Test(&arrival, &arrived, MPI_STATUS_IGNORE) == MPI_SUCCESS && arrived == 0) {
-    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > limit_s_) {
-      std::fprintf(
-          stderr,
-          "error: %s (on rank %d; the other ranks wait for it inside ParaView, so the run ends here)\n",
-          text.c_str(), communicator_.rank());
-      std::fflush(nullptr);
-      MPI_Abort(communicator_.handle(), 3);
-    }
+    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > stuck_limit_s_)
+      end_program(text + " (on rank " + std::to_string(communicator_.rank()) +
+                  "; the other ranks wait for it inside ParaView, so the run ends here)");
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }

@@ -6,11 +6,11 @@
 #include <vtkProcessModule.h>
 #include <vtkRemotingCoreConfiguration.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <span>
 
+#include "insitu/catalyst/inspection.hpp"
+#include "insitu/catalyst/process_state.hpp"
 #include "insitu/window/headless_window.hpp"
 
 namespace rhexis::insitu {
@@ -72,57 +72,27 @@ std::string failure_of(Action action) {
   }
 }
 
-/// Throws where a script says that it needs a channel which the run does not have.
-void require_channels(const CatalystScript& script, const PerChannel<bool>& present) {
-  for (std::size_t channel = 0; channel < channel_count; ++channel) {
-    if (present[channel] || !script.wishes()[channel].required) continue;
-    std::string list;
-    for (std::size_t other = 0; other < channel_count; ++other) {
-      if (present[other]) list += (list.empty() ? "" : ", ") + std::string(channel_names[other].front());
-    }
-    throw RunError("Catalyst script " + script.path() + " asks for the channel '" +
-                   channel_names[channel].front() + "', which this run does not have; there are: " + list);
-  }
-}
-
-/// The fields that a script needs of a channel; throws where there is none of a name that it declares.
-std::vector<std::string> fields_of(const CatalystScript& script, std::size_t channel,
-                                   std::span<const FieldInfo> fields) {
-  std::vector<std::string> available;
-  std::string list;
-  for (const FieldInfo& field : fields) {
-    available.emplace_back(field.name);
-    list += (list.empty() ? "" : ", ") + available.back();
-  }
-  const auto& declared = script.wishes()[channel].fields;
-  if (!declared) return available;
-  for (const std::string& name : *declared) {
-    if (std::ranges::find(available, name) != available.end()) continue;
-    throw RunError("Catalyst script " + script.path() + " asks for the field '" + name +
-                   "'; there are: " + list);
-  }
-  return *declared;
-}
-
 }  // namespace
 
 CatalystPipeline::CatalystPipeline(const Settings& settings, parallel::Communicator communicator)
     : paraview_communicator_(communicator),
       agreement_communicator_(communicator),
-      agreement_(parallel::Communicator(agreement_communicator_.handle())) {
+      image_directory_(settings.image_directory),
+      agreement_(parallel::Communicator(agreement_communicator_.handle()), settings.time_limit_s,
+                 settings.before_abort) {
   set_environment_defaults();
   const std::string no_renderer = agreement_.agree(failure_of([&] {
     const std::string renderer = start_renderer(settings.renderer);
     description_ = std::string("ParaView Catalyst ") + PARAVIEW_VERSION_FULL + ", " + renderer;
   }));
   if (!no_renderer.empty()) throw NotAvailable(no_renderer);
+  const ProcessState before;  // VTK and Python take over signals that are the solver's
   start_paraview();
   agreement_.agree(failure_of([&] {
-    std::filesystem::create_directories(settings.image_directory);
-    guard_.emplace(agreement_, std::filesystem::absolute(settings.image_directory).string());
+    guard_.emplace(agreement_, std::filesystem::absolute(settings.image_directory).string(), settings.live);
     add_scripts(settings);
   }));
-  grids_.emplace();
+  before.restore();
   if (!agreement_.failure().empty()) close();
   throw_if_failed();
 }
@@ -139,9 +109,9 @@ void CatalystPipeline::start_paraview() {
 }
 
 void CatalystPipeline::add_scripts(const Settings& settings) {
-  for (const std::string& path : settings.scripts) {
-    scripts_.push_back(std::make_unique<CatalystScript>(path, guard_->wishes(path)));
-  }
+  const std::vector<PerChannel<Wish>> wishes = inspect(settings);
+  for (std::size_t i = 0; i < wishes.size(); ++i)
+    scripts_.push_back(std::make_unique<CatalystScript>(settings.scripts[i], wishes[i]));
 }
 
 std::vector<CatalystScript*> CatalystPipeline::scripts_wanting(long step, double time_s) {
@@ -157,45 +127,19 @@ bool CatalystPipeline::wants(long step, double time_s) {
   return !scripts_wanting(step, time_s).empty();
 }
 
-Grids CatalystPipeline::lend(const Channels& channels, const std::vector<CatalystScript*>& scripts) {
-  const PerChannel<bool> present = {channels.particles != nullptr, channels.network != nullptr};
-  for (const CatalystScript* script : scripts) require_channels(*script, present);
-  Grids grids{};
-  if (channels.particles != nullptr) grids[0] = lend_channel(0, *channels.particles, scripts);
-  if (channels.network != nullptr) grids[1] = lend_channel(1, *channels.network, scripts);
-  return grids;
-}
-
-template <class Source>
-vtkPolyData* CatalystPipeline::lend_channel(std::size_t channel, Source& source,
-                                            const std::vector<CatalystScript*>& scripts) {
-  std::vector<std::string> needed;
-  bool wanted = false;
-  for (const CatalystScript* script : scripts) {
-    if (!script->wishes()[channel].wanted) continue;
-    wanted = true;
-    for (const std::string& name : fields_of(*script, channel, source.fields())) {
-      if (std::ranges::find(needed, name) == needed.end()) needed.push_back(name);
-    }
-  }
-  return wanted ? (*grids_)[channel].lend(source, needed) : nullptr;
-}
-
 void CatalystPipeline::process(const Channels& channels) {
   const bool of_particles = channels.particles != nullptr;
   const long step = of_particles ? channels.particles->step() : channels.network->step();
   const double time_s = of_particles ? channels.particles->time_s() : channels.network->time_s();
-  const auto scripts = scripts_wanting(step, time_s);
-  if (scripts.empty()) return;
-  Grids grids{};
-  agreement_.agree(failure_of([&] { grids = lend(channels, scripts); }));
-  for (CatalystScript* script : scripts) {
-    if (!agreement_.failure().empty()) break;
-    script->run(grids, step, time_s);
-    agreement_.agree(guard_->take_noted(script->path()));
+  for (CatalystScript* script : scripts_wanting(step, time_s)) {
+    agreement_.agree(failure_of([&] {
+      std::filesystem::create_directories(image_directory_);
+      script->fill(channels);
+    }));
+    if (agreement_.failure().empty()) guard_->call(script->path(), [&] { script->run(step, time_s); });
+    script->clear();
+    throw_if_failed();
   }
-  for (BorrowedGrid& grid : *grids_) grid.release();
-  throw_if_failed();
 }
 
 void CatalystPipeline::finish() {
@@ -206,10 +150,9 @@ void CatalystPipeline::finish() {
 
 void CatalystPipeline::close() {
   if (processor_ == nullptr) return;
-  for (const auto& script : scripts_) script->finish();
+  for (const auto& script : scripts_) guard_->call(script->path(), [&] { script->finish(); });
   scripts_.clear();
   if (guard_) guard_->forget_scripts();
-  grids_.reset();
   processor_->Finalize();
   processor_ = nullptr;
 }
@@ -223,4 +166,9 @@ void CatalystPipeline::throw_if_failed() const {
 extern "C" [[gnu::visibility("default")]] rhexis::insitu::Pipeline* rhexis_create_pipeline(
     const rhexis::insitu::Settings& settings, rhexis::parallel::Communicator communicator) {
   return new rhexis::insitu::CatalystPipeline(settings, communicator);
+}
+
+extern "C" [[gnu::visibility("default")]] void rhexis_inspect_scripts(
+    const rhexis::insitu::Settings& settings) {
+  rhexis::insitu::inspect(settings);
 }

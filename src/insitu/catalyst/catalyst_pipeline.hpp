@@ -4,13 +4,13 @@
 #include <vtkCPProcessor.h>
 #include <vtkSmartPointer.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "insitu/catalyst/agreement.hpp"
-#include "insitu/catalyst/borrowed_grid.hpp"
 #include "insitu/catalyst/catalyst_script.hpp"
 #include "insitu/catalyst/script_guard.hpp"
 #include "insitu/pipeline.hpp"
@@ -43,9 +43,6 @@ class CatalystPipeline : public Pipeline {
  private:
   void start_paraview();
   void add_scripts(const Settings& settings);
-  Grids lend(const Channels& channels, const std::vector<CatalystScript*>& scripts);
-  template <class Source>
-  vtkPolyData* lend_channel(std::size_t channel, Source& source, const std::vector<CatalystScript*>& scripts);
   std::vector<CatalystScript*> scripts_wanting(long step, double time_s);
   void throw_if_failed() const;
   void close();
@@ -53,11 +50,11 @@ class CatalystPipeline : public Pipeline {
   // In this order: what stands first goes last.
   OwnCommunicator paraview_communicator_;
   OwnCommunicator agreement_communicator_;
+  std::filesystem::path image_directory_;
   Agreement agreement_;
   std::string description_;
   vtkSmartPointer<vtkCPProcessor> processor_;
   std::optional<ScriptGuard> guard_;
-  std::optional<PerChannel<BorrowedGrid>> grids_;
   std::vector<std::unique_ptr<CatalystScript>> scripts_;
 };
 

@@ -1,45 +1,35 @@
 #include "insitu/catalyst/catalyst_script.hpp"
 
 #include <vtkCPInputDataDescription.h>
-#include <vtkCallbackCommand.h>
-#include <vtkCollection.h>
-#include <vtkSMProxy.h>
-#include <vtkSMProxyManager.h>
-#include <vtkSMSessionProxyManager.h>
 
 namespace rhexis::insitu {
-namespace {
-
-/// ParaView's producers warn when they get data twice for the same time, as they do at a script's start and
-/// again at its first run. An object whose warnings somebody observes does not print them.
-void silence_producers_of(const char* name) {
-  vtkNew<vtkCallbackCommand> ignore;
-  vtkNew<vtkCollection> producers;
-  vtkSMProxyManager::GetProxyManager()->GetActiveSessionProxyManager()->GetProxies("sources", name,
-                                                                                   producers);
-  for (int i = 0; i < producers->GetNumberOfItems(); ++i) {
-    auto* proxy = vtkSMProxy::SafeDownCast(producers->GetItemAsObject(i));
-    auto* producer = vtkObject::SafeDownCast(proxy->GetClientSideObject());
-    if (producer->HasObserver(vtkCommand::WarningEvent) == 0)
-      producer->AddObserver(vtkCommand::WarningEvent, ignore);
-  }
-}
-
-}  // namespace
 
 CatalystScript::CatalystScript(std::string path, PerChannel<Wish> wishes)
     : path_(std::move(path)), wishes_(std::move(wishes)) {
   helper_->PrepareFromScript(path_);
 }
 
-vtkSmartPointer<vtkCPDataDescription> CatalystScript::describe(const Grids& grids, long step,
-                                                               double time_s) const {
+void CatalystScript::fill(const Channels& channels) {
+  const auto fill_channel = [&](std::size_t channel, auto* source) {
+    filled_[channel] = nullptr;
+    if (source != nullptr && wishes_[channel].wanted)
+      filled_[channel] = grids_[channel].fill(*source, wishes_[channel].fields);
+  };
+  fill_channel(0, channels.particles);
+  fill_channel(1, channels.network);
+}
+
+void CatalystScript::clear() {
+  for (ChannelGrid& grid : grids_) grid.clear();
+}
+
+vtkSmartPointer<vtkCPDataDescription> CatalystScript::describe(long step, double time_s) const {
   auto description = vtkSmartPointer<vtkCPDataDescription>::New();
   for (std::size_t channel = 0; channel < channel_count; ++channel) {
-    if (!lent_[channel]) continue;
+    if (!known_[channel]) continue;
     for (const char* name : channel_names[channel]) {
       description->AddInput(name);
-      description->GetInputDescriptionByName(name)->SetGrid(grids[channel]);
+      description->GetInputDescriptionByName(name)->SetGrid(filled_[channel]);
     }
   }
   description->SetTimeData(time_s, static_cast<vtkIdType>(step));
@@ -48,24 +38,21 @@ vtkSmartPointer<vtkCPDataDescription> CatalystScript::describe(const Grids& grid
 
 bool CatalystScript::wants(long step, double time_s) {
   if (!started_) return true;
-  auto description = describe({}, step, time_s);
+  auto description = describe(step, time_s);
   return helper_->RequestDataDescription(description) && description->GetIfAnyGridNecessary();
 }
 
-void CatalystScript::run(const Grids& grids, long step, double time_s) {
-  if (!started_ && !start(grids, step, time_s)) return;
-  helper_->CatalystExecute(describe(grids, step, time_s));
+void CatalystScript::run(long step, double time_s) {
+  if (!started_ && !start(step, time_s)) return;
+  helper_->CatalystExecute(describe(step, time_s));
 }
 
-bool CatalystScript::start(const Grids& grids, long step, double time_s) {
+bool CatalystScript::start(long step, double time_s) {
   for (std::size_t channel = 0; channel < channel_count; ++channel)
-    lent_[channel] = wishes_[channel].wanted && grids[channel] != nullptr;
-  auto description = describe(grids, step, time_s);
+    known_[channel] = filled_[channel] != nullptr;
+  auto description = describe(step, time_s);
   if (!helper_->Import(description) || !helper_->CatalystInitialize(description)) return false;
   started_ = true;
-  for (const auto& names : channel_names) {
-    for (const char* name : names) silence_producers_of(name);
-  }
   return wants(step, time_s);
 }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +20,8 @@ inline constexpr PerChannel<std::array<const char*, 2>> channel_names = {
 
 /// What one script wants of one channel.
 struct Wish {
-  bool wanted = false;                             ///< it is lent the channel where the run has it
-  bool required = false;                           ///< it says so, and is in error where the run has not
-  std::optional<std::vector<std::string>> fields;  ///< nothing: all
+  bool wanted = false;              ///< it is given the channel
+  std::vector<std::string> fields;  ///< names
 };
 
 }  // namespace rhexis::insitu

@@ -1,26 +1,13 @@
 #include "insitu/catalyst/script_guard.hpp"
 
-#include <vtkPython.h>  // before any other header
-#include <vtkPythonInterpreter.h>
-#include <vtkSmartPyObject.h>
-
-#include "core/error.hpp"
-#include "insitu/catalyst/guard_source.hpp"
+#include "insitu/catalyst/embedded_python.hpp"  // before any other header
+#include "insitu/catalyst/python_sources.hpp"
 
 namespace rhexis::insitu {
 namespace {
 
 constexpr const char* module_name = "rhexis_catalyst";
 constexpr const char* capsule_name = "rhexis_catalyst.agreement";
-
-/// A Python string; what has no UTF-8 (a stray byte of a file's name) as an escape.
-std::string utf8(PyObject* text) {
-  const vtkSmartPyObject bytes(
-      text == nullptr ? nullptr : PyUnicode_AsEncodedString(text, "utf-8", "backslashreplace"));
-  if (bytes) return PyBytes_AsString(bytes);
-  PyErr_Clear();
-  return "unknown Python error";
-}
 
 /// What Python calls as agree(text); collective, so there is nothing that makes a rank leave it out.
 PyObject* agree(PyObject* self, PyObject* text) {
@@ -30,68 +17,56 @@ PyObject* agree(PyObject* self, PyObject* text) {
 
 PyMethodDef agree_definition = {"agree", &agree, METH_O, "first non-empty text of all ranks"};
 
-/// The pending Python exception as text, no longer pending.
-std::string take_exception() {
-  PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
-  PyErr_Fetch(&type, &value, &trace);
-  vtkSmartPyObject message(value == nullptr ? nullptr : PyObject_Str(value));
-  Py_XDECREF(type);
-  Py_XDECREF(value);
-  Py_XDECREF(trace);
-  return utf8(message);
+PyObject* module() {
+  return PyImport_AddModule(module_name);
 }
 
-vtkSmartPyObject call(const char* function, const char* argument = nullptr) {
-  PyObject* module = PyImport_AddModule(module_name);
-  vtkSmartPyObject result(argument == nullptr ? PyObject_CallMethod(module, function, nullptr)
-                                              : PyObject_CallMethod(module, function, "s", argument));
-  if (!result) throw RunError(take_exception());
-  return result;
+void note_message(bool is_error, const std::string& text) {
+  const vtkPythonScopeGilEnsurer gil;
+  const vtkSmartPyObject words(
+      PyUnicode_DecodeUTF8(text.c_str(), static_cast<Py_ssize_t>(text.size()), "replace"));
+  checked(
+      PyObject_CallMethod(module(), "note_message", "OO", is_error ? Py_True : Py_False, words.GetPointer()));
 }
 
 }  // namespace
 
-ScriptGuard::ScriptGuard(Agreement& agreement, const std::string& image_directory) {
-  vtkPythonInterpreter::Initialize();
-  vtkPythonScopeGilEnsurer gil;
-  PyObject* names = PyModule_GetDict(PyImport_AddModule(module_name));
-  vtkSmartPyObject capsule(PyCapsule_New(&agreement, capsule_name, nullptr));
-  vtkSmartPyObject function(PyCFunction_New(&agree_definition, capsule));
+ScriptGuard::ScriptGuard(Agreement& agreement, const std::string& image_directory, const std::string& live)
+    : agreement_(agreement) {
+  embedded_module("rhexis_inspection", inspection_source);
+  PyObject* names = PyModule_GetDict(embedded_module(module_name, guard_source));
+  const vtkPythonScopeGilEnsurer gil;
+  const vtkSmartPyObject capsule(PyCapsule_New(&agreement, capsule_name, nullptr));
+  const vtkSmartPyObject function(PyCFunction_New(&agree_definition, capsule));
   PyDict_SetItemString(names, "agree", function);
-  PyDict_SetItemString(names, "__builtins__", PyEval_GetBuiltins());
-  vtkSmartPyObject code(Py_CompileString(guard_source, "rhexis guard.py", Py_file_input));
-  vtkSmartPyObject result(code ? PyEval_EvalCode(code, names, names) : nullptr);
-  if (!result) throw RunError("ParaView's Python: " + take_exception());
-  vtkSmartPyObject directory(PyUnicode_DecodeFSDefault(image_directory.c_str()));
-  PyDict_SetItemString(names, "image_directory", directory);
+  PyDict_SetItemString(names, "image_directory", path_object(image_directory));
+  PyDict_SetItemString(names, "live", path_object(live));
+  PyDict_SetItemString(names, "time_limit", path_object(agreement.time_limit().limit()));
+  PyDict_SetItemString(names, "is_root", agreement.is_root() ? Py_True : Py_False);
 }
 
-PerChannel<Wish> ScriptGuard::wishes(const std::string& script) const {
-  vtkPythonScopeGilEnsurer gil;
-  const vtkSmartPyObject found = call("inspect", script.c_str());
-  PerChannel<Wish> wishes;
-  for (std::size_t channel = 0; channel < channel_count; ++channel) {
-    PyObject* of_channel = PyList_GetItem(found, static_cast<Py_ssize_t>(channel));
-    wishes[channel].wanted = PyTuple_GetItem(of_channel, 0) == Py_True;
-    wishes[channel].required = PyTuple_GetItem(of_channel, 1) == Py_True;
-    PyObject* names = PyTuple_GetItem(of_channel, 2);
-    if (names == Py_None) continue;
-    std::vector<std::string>& fields = wishes[channel].fields.emplace();
-    for (Py_ssize_t i = 0; i < PyList_Size(names); ++i) {
-      fields.push_back(utf8(PyList_GetItem(names, i)));
-    }
+void ScriptGuard::call(const std::string& path, const std::function<void()>& work) {
+  const vtkPythonScopeGilEnsurer gil;
+  std::string failure;
+  {
+    const ProcessState before;
+    Messages messages(&note_message);
+    agreement_.time_limit().begin(path);
+    work();
+    agreement_.time_limit().end();
+    messages.flush();
+    failure = utf8(checked(PyObject_CallMethod(module(), "take_noted", "OO", path_object(path).GetPointer(),
+                                               agreement_.failure().empty() ? Py_False : Py_True)));
+    const std::string changes = before.restore();
+    if (failure.empty() && !changes.empty())
+      failure = "Catalyst script " + path + ": it " + changes + ", which the program relies on";
   }
-  return wishes;
-}
-
-std::string ScriptGuard::take_noted(const std::string& script) const {
-  vtkPythonScopeGilEnsurer gil;
-  return utf8(call("take_noted", script.c_str()));
+  agreement_.agree(failure);
 }
 
 void ScriptGuard::forget_scripts() const {
-  vtkPythonScopeGilEnsurer gil;
-  call("forget_scripts");
+  const vtkPythonScopeGilEnsurer gil;
+  checked(PyObject_CallMethod(module(), "forget_scripts", nullptr));
 }
 
 }  // namespace rhexis::insitu

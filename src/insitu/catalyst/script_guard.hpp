@@ -1,28 +1,31 @@
-/// The Python side of the plugin: starts the interpreter and puts guard.py between ParaView and the scripts.
+/// The Python side of the plugin: guard.py, which stands between ParaView and the scripts.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "insitu/catalyst/agreement.hpp"
-#include "insitu/catalyst/channel.hpp"
+#include "insitu/catalyst/messages.hpp"
+#include "insitu/catalyst/process_state.hpp"
 
 namespace rhexis::insitu {
 
 class ScriptGuard {
  public:
-  /// `agreement` must outlive the interpreter's use of it, that is until `forget_scripts`.
-  ScriptGuard(Agreement& agreement, const std::string& image_directory);
+  /// `agreement` must outlive the interpreter's use of it, that is until `forget_scripts`. `live` is the
+  /// host:port of a listening ParaView, or empty.
+  ScriptGuard(Agreement& agreement, const std::string& image_directory, const std::string& live);
 
-  /// What a script declares that it wants of each channel. Throws RunError for a script that cannot be read
-  /// or parsed; local to the rank.
-  PerChannel<Wish> wishes(const std::string& script) const;
-
-  /// The first exception on this rank that ParaView swallowed since the last call, while `script` ran; empty
-  /// if none.
-  std::string take_noted(const std::string& script) const;
+  /// Has the script `path` do `work`, within the time limit, and sees to it that the process is as before.
+  /// Collective; what went wrong on any rank is afterwards agreement.failure().
+  void call(const std::string& path, const std::function<void()>& work);
 
   /// Destroys what scripts hold; call before ParaView ends.
   void forget_scripts() const;
+
+ private:
+  Agreement& agreement_;
 };
 
 }  // namespace rhexis::insitu

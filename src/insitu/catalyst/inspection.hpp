@@ -1,0 +1,16 @@
+/// What can be told of scripts without running them (inspection.py).
+#pragma once
+
+#include <vector>
+
+#include "insitu/catalyst/channel.hpp"
+#include "insitu/pipeline.hpp"
+
+namespace rhexis::insitu {
+
+/// What each script wants of each channel, in the order of `settings.scripts`. Throws RunError, naming script
+/// and line, for a script that cannot be read or parsed, or that asks for what the run does not have. Local
+/// to the rank; ParaView need not have been started.
+std::vector<PerChannel<Wish>> inspect(const Settings& settings);
+
+}  // namespace rhexis::insitu
