@@ -30,10 +30,9 @@ std::vector<std::string> names_of(std::span<const FieldInfo> fields) {
   return names;
 }
 
-insitu::Settings settings_for(const Configuration& c, const fs::path& results) {
+insitu::Settings settings_for(const Configuration& c) {
   insitu::Settings settings;
   settings.scripts = c.insitu.scripts;
-  settings.image_directory = (results / "images").string();
   settings.renderer = renderer(c.insitu.renderer);
   if (c.model != "network") settings.particle_fields = names_of(peridynamics::ParticleSource::all_fields());
   if (c.model != "vessel") settings.network_fields = names_of(hemodynamics::VesselLines().fields());
@@ -112,27 +111,41 @@ void find_scripts(Configuration& c, parallel::Communicator comm) {
     script = comm.broadcast(found);
   }
   try {
-    c.no_pictures = insitu::inspect_scripts(settings_for(c, {}), comm);
+    c.no_pictures = insitu::inspect_scripts(settings_for(c), comm);
   } catch (const InputError& error) {
     throw InputError(error.what(), key);
   }
 }
 
-Pictures start_pictures(const Configuration& c, const fs::path& results, parallel::Communicator comm,
-                        std::function<void(const std::string&)> before_abort) {
-  if (!c.insitu.enabled) return {.pipeline = nullptr, .description = "off (insitu.enabled = false)"};
-  if (c.insitu.scripts.empty()) return {.pipeline = nullptr, .description = "off (no insitu.scripts)"};
+Pictures start_pictures(const Configuration& c, const output::ResultsFolder& results, bool goes_on,
+                        parallel::Communicator comm, std::function<void(const std::string&)> before_abort) {
+  Pictures pictures;
+  if (!c.insitu.enabled) {
+    pictures.description = "off (insitu.enabled = false)";
+  } else if (c.insitu.scripts.empty()) {
+    pictures.description = "off (no insitu.scripts)";
+  } else if (!c.no_pictures.empty()) {
+    pictures.description = "off: " + c.no_pictures;
+  }
+  if (!pictures.description.empty()) return pictures;
+  auto staging = std::make_unique<output::StagingFolder>(results, "images", comm);
+  if (goes_on) staging->restore();
+  insitu::Settings settings = settings_for(c);
+  settings.image_directory = staging->path().string();
+  settings.after_script = [to = staging.get()](const std::string& script, long step) {
+    to->deliver(script, step);
+  };
+  settings.before_abort = std::move(before_abort);
   try {
-    insitu::Settings settings = settings_for(c, results);
-    settings.before_abort = std::move(before_abort);
-    auto pipeline = insitu::load_pipeline(settings, comm);
-    std::string description = pipeline->description();
-    return {.pipeline = std::move(pipeline), .description = std::move(description)};
+    pictures.pipeline = insitu::load_pipeline(settings, comm);
+    pictures.description = pictures.pipeline->description();
+    pictures.staging = std::move(staging);
   } catch (const insitu::NotAvailable& reason) {
-    return {.pipeline = nullptr, .description = std::string("off: ") + reason.what()};
+    pictures.description = std::string("off: ") + reason.what();
   } catch (const RunError& bad_script) {
     throw InputError(bad_script.what());
   }
+  return pictures;
 }
 
 }  // namespace rhexis::app

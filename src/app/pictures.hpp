@@ -1,20 +1,22 @@
 /// Starting ParaView for a run, or saying why there will be no pictures.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "insitu/parameters.hpp"
 #include "insitu/pipeline.hpp"
+#include "output/results_folder.hpp"
+#include "output/staging_folder.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::app {
 
 struct Pictures {
-  std::unique_ptr<insitu::Pipeline> pipeline;  ///< null: no pictures
-  std::string description;                     ///< who draws, or why nobody does
+  std::unique_ptr<output::StagingFolder> staging;  ///< where scripts draw
+  std::unique_ptr<insitu::Pipeline> pipeline;      ///< null: no pictures
+  std::string description;                         ///< who draws, or why nobody does
   /// Where several runs share them, one after the other: steps and seconds of those before.
   long steps_before = 0;
   double seconds_before = 0;
@@ -27,9 +29,10 @@ struct Configuration;
 /// InputError of the key insitu.scripts. Collective.
 void find_scripts(Configuration& c, parallel::Communicator comm);
 
-/// Collective. Throws InputError for a script that has become bad since `find_scripts`. `before_abort`: see
-/// insitu::Settings.
-Pictures start_pictures(const Configuration& c, const std::filesystem::path& results,
+/// Pictures become results, in images/, when they are complete; `goes_on`: those of an earlier run can be
+/// gone on with. `before_abort`: see insitu::Settings. Collective. Throws InputError for a script that has
+/// become bad since `find_scripts`.
+Pictures start_pictures(const Configuration& c, const output::ResultsFolder& results, bool goes_on,
                         parallel::Communicator comm, std::function<void(const std::string&)> before_abort);
 
 /// A run's particles with the steps and seconds of the runs before.

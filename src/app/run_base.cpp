@@ -93,7 +93,7 @@ void RunBase::start_insitu() {
   pictures_ = options_.pictures;
   if (!pictures_)
     pictures_ = std::make_shared<Pictures>(
-        start_pictures(c_, options_.directory, comm_, [this](const std::string& reason) {
+        start_pictures(c_, *folder_, !options_.restart.empty(), comm_, [this](const std::string& reason) {
           if (record_) record_->fail_alone(reason);
         }));
 }

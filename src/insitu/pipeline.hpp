@@ -34,6 +34,8 @@ struct Settings {
   std::optional<std::vector<std::string>> particle_fields, network_fields;
   double time_limit_s = 600;  ///< of one script at one step
   std::string live;           ///< host:port where ParaView listens (Catalyst Live); empty: nobody
+  /// Called on every rank once a script's pictures of a step are written. What it throws, `process` throws.
+  std::function<void(const std::string& script, long step)> after_script;
   /// Told the reason before the program is ended because a script does not end (on this rank; perhaps on
   /// another thread than the caller's, which then does nothing any more).
   std::function<void(const std::string&)> before_abort;

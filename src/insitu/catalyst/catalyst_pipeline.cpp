@@ -78,6 +78,7 @@ CatalystPipeline::CatalystPipeline(const Settings& settings, parallel::Communica
     : paraview_communicator_(communicator),
       agreement_communicator_(communicator),
       image_directory_(settings.image_directory),
+      after_script_(settings.after_script),
       agreement_(parallel::Communicator(agreement_communicator_.handle()), settings.time_limit_s,
                  settings.before_abort) {
   set_environment_defaults();
@@ -131,6 +132,7 @@ void CatalystPipeline::process(const Channels& channels) {
   const bool of_particles = channels.particles != nullptr;
   const long step = of_particles ? channels.particles->step() : channels.network->step();
   const double time_s = of_particles ? channels.particles->time_s() : channels.network->time_s();
+  step_ = step;
   for (CatalystScript* script : scripts_wanting(step, time_s)) {
     agreement_.agree(failure_of([&] {
       std::filesystem::create_directories(image_directory_);
@@ -139,13 +141,19 @@ void CatalystPipeline::process(const Channels& channels) {
     if (agreement_.failure().empty()) guard_->call(script->path(), [&] { script->run(step, time_s); });
     script->clear();
     throw_if_failed();
+    if (after_script_) after_script_(script->path(), step);
   }
 }
 
 void CatalystPipeline::finish() {
   const bool failed_before = !agreement_.failure().empty();
+  std::vector<std::string> paths;
+  for (const auto& script : scripts_) paths.push_back(script->path());
   close();
-  if (!failed_before) throw_if_failed();
+  if (failed_before) return;
+  throw_if_failed();
+  for (const std::string& path : paths)
+    if (after_script_) after_script_(path, step_);
 }
 
 void CatalystPipeline::close() {

@@ -5,6 +5,7 @@
 #include <vtkSmartPointer.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +52,8 @@ class CatalystPipeline : public Pipeline {
   OwnCommunicator paraview_communicator_;
   OwnCommunicator agreement_communicator_;
   std::filesystem::path image_directory_;
+  std::function<void(const std::string& script, long step)> after_script_;
+  long step_ = 0;  ///< the last that was processed
   Agreement agreement_;
   std::string description_;
   vtkSmartPointer<vtkCPProcessor> processor_;

@@ -2,12 +2,24 @@
 
 #include <vtkLogger.h>
 
+#include <filesystem>
+
 namespace rhexis::insitu {
 namespace {
 
 constexpr const char* name = "rhexis";
 
+/// Whether a message is about the connection to a ParaView that watches: it may leave at any time.
+bool is_of_connection(const vtkLogger::Message& message) {
+  const std::string file = std::filesystem::path(message.filename).filename().string();
+  for (const char* part :
+       {"vtkSocket", "vtkClientSocket", "vtkServerSocket", "vtkLiveInsituLink", "vtkTCPNetwork"})
+    if (file.starts_with(part)) return true;
+  return false;
+}
+
 void on_message(void* messages, const vtkLogger::Message& message) {
+  if (is_of_connection(message)) return;
   static_cast<Messages*>(messages)->take(message.verbosity <= vtkLogger::VERBOSITY_ERROR, message.message);
 }
 

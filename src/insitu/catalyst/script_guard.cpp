@@ -1,5 +1,7 @@
 #include "insitu/catalyst/script_guard.hpp"
 
+#include <csignal>
+
 #include "insitu/catalyst/embedded_python.hpp"  // before any other header
 #include "insitu/catalyst/python_sources.hpp"
 
@@ -29,6 +31,23 @@ void note_message(bool is_error, const std::string& text) {
       PyObject_CallMethod(module(), "note_message", "OO", is_error ? Py_True : Py_False, words.GetPointer()));
 }
 
+/// While this lives, writing to somebody who has left (a ParaView that watched the run) is an error, not the
+/// end.
+class NoBrokenPipes {
+ public:
+  NoBrokenPipes() {
+    struct sigaction ignore {};
+    ignore.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &ignore, &before_);
+  }
+  NoBrokenPipes(const NoBrokenPipes&) = delete;
+  NoBrokenPipes& operator=(const NoBrokenPipes&) = delete;
+  ~NoBrokenPipes() { sigaction(SIGPIPE, &before_, nullptr); }
+
+ private:
+  struct sigaction before_ {};
+};
+
 }  // namespace
 
 ScriptGuard::ScriptGuard(Agreement& agreement, const std::string& image_directory, const std::string& live)
@@ -49,6 +68,7 @@ void ScriptGuard::call(const std::string& path, const std::function<void()>& wor
   const vtkPythonScopeGilEnsurer gil;
   std::string failure;
   {
+    const NoBrokenPipes pipes;
     const ProcessState before;
     Messages messages(&note_message);
     agreement_.time_limit().begin(path);
