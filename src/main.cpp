@@ -1,9 +1,13 @@
 // rhexis: parse, build, run, report.
 #include "app/commands.hpp"
 #include "app/guarded.hpp"
+#include "app/interrupt.hpp"
+#include "app/terminal.hpp"
 #include "parallel/communicator.hpp"
 
 int main(int argc, char** argv) {
+  rhexis::app::open_missing_streams();
+  rhexis::app::ignore_signals_of_writing();
   const rhexis::parallel::Session session(argc, argv);
   const auto world = rhexis::parallel::Communicator::world();
   const rhexis::app::Command command = rhexis::app::parse_command_line(argc, argv, world);

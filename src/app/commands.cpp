@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
+#include <sstream>
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
@@ -13,11 +13,57 @@
 #include "app/folder_plan.hpp"
 #include "app/network_run.hpp"
 #include "app/stopwatch.hpp"
+#include "app/terminal.hpp"
 #include "app/version.hpp"
 #include "app/vessel_run.hpp"
 #include "input/keys.hpp"
+#include "output/unfinished_run.hpp"
 
 namespace rhexis::app {
+namespace {
+
+/// The exit status of what does nothing but print.
+int told(parallel::Communicator comm) {
+  const std::string failure = output_failure();
+  if (!failure.empty()) print_error(fmt::format("rhexis: stdout could not be written: {}\n", failure));
+  return comm.all_reduce(std::int64_t{!failure.empty()}, parallel::Reduce::max) != 0 ? 3 : 0;
+}
+
+/// What there is to say of a run into `folder` that has not told its end; empty where there is none.
+std::string unfinished_run(const std::filesystem::path& folder) {
+  using State = output::UnfinishedRun::State;
+  const std::optional<output::UnfinishedRun> run = output::unfinished_run(folder);
+  if (!run) return {};
+  if (run->state == State::at_work) return fmt::format("a run into {} is at work now", folder.string());
+  const std::string then =
+      run->holds_samples ? "its finished samples are kept, and the same command goes on"
+      : run->last_checkpoint.empty()
+          ? "it left no checkpoint"
+          : fmt::format("its last checkpoint, to --restart from, is {}", run->last_checkpoint.string());
+  return fmt::format(
+      "the run into {} {} (killed, out of memory, or out of power); {}", folder.string(),
+      run->state == State::dead ? "ended without a word" : "is at work, or ended without a word", then);
+}
+
+/// The same of the folder of results and of the one that the checkpoint is in; on the root only.
+std::vector<std::string> unfinished_runs(const RunOptions& options, parallel::Communicator comm) {
+  std::vector<std::string> texts;
+  if (!comm.is_root()) return texts;
+  std::vector<std::filesystem::path> folders = {options.directory};
+  // <folder>/checkpoints/<name>
+  std::filesystem::path of_checkpoint = (options.restart.parent_path() / "..").lexically_normal();
+  if (!of_checkpoint.has_filename()) of_checkpoint = of_checkpoint.parent_path();
+  std::error_code not_there;
+  if (!options.restart.empty() && !std::filesystem::equivalent(of_checkpoint, options.directory, not_there))
+    folders.push_back(of_checkpoint);
+  for (const std::filesystem::path& folder : folders) {
+    const std::string text = unfinished_run(folder);
+    if (!text.empty()) texts.push_back(text);
+  }
+  return texts;
+}
+
+}  // namespace
 
 Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   Command command;
@@ -53,8 +99,13 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool asked = error.get_exit_code() == 0;  // --help, --version
-    if (comm.is_root()) cli.exit(error);
-    command.status = asked ? 0 : 2;
+    std::ostringstream out, problem;
+    cli.exit(error, out, problem);
+    if (comm.is_root()) {
+      print_out(out.str());
+      print_error(problem.str());
+    }
+    command.status = asked ? told(comm) : 2;
     return command;
   }
   command.action = run->parsed() ? Action::run : check->parsed() ? Action::check : Action::keys;
@@ -65,8 +116,8 @@ int carry_out(const Command& command, parallel::Communicator comm) {
   if (command.action == Action::keys) {
     Configuration unused;
     const std::string text = input::describe_keys(declare(unused), command.section);
-    if (comm.is_root()) fmt::print("{}", text);
-    return 0;
+    if (comm.is_root()) print_out(text);
+    return told(comm);
   }
   const double started = seconds_now();
   Configuration configuration = read_configuration(command.file, command.overrides, comm);
@@ -85,8 +136,11 @@ int carry_out(const Command& command, parallel::Communicator comm) {
                                        configuration.no_pictures);
     output::refuse_obstacles(folder_plan(configuration, options), comm);
     check(configuration, comm);
-    return 0;
+    Console console(comm.is_root(), false);
+    for (const std::string& text : unfinished_runs(options, comm)) console.item("results", text);
+    return told(comm);
   }
+  for (const std::string& text : unfinished_runs(options, comm)) configuration.warnings.push_back(text);
   const auto run = [&] {
     if (configuration.model == "network") return NetworkRun(std::move(configuration), options, comm).run();
     if (configuration.is_ensemble()) return EnsembleRun(std::move(configuration), options, comm).run();
@@ -94,7 +148,7 @@ int carry_out(const Command& command, parallel::Communicator comm) {
     return VesselRun(std::move(configuration), options, comm).run();
   };
   const Ending ending = run();
-  return ending == Ending::interrupted ? 130 : 0;
+  return ending.interrupted() ? 128 + ending.signal : 0;
 }
 
 }  // namespace rhexis::app

@@ -26,8 +26,8 @@ struct Command {
 /// Prints help, version or what is wrong with the call (on the root rank), then leaves nothing to do.
 Command parse_command_line(int argc, char** argv, parallel::Communicator comm);
 
-/// Does it and returns the exit status: 0, or 130 after an interrupt (as shells have it). Throws InputError
-/// and RunError.
+/// Does it and returns the exit status: 0; 128 + signal after an interrupt (as shells have it); 3 where
+/// nothing was asked for but text, and it could not be written. Throws InputError and RunError.
 int carry_out(const Command& command, parallel::Communicator comm);
 
 }  // namespace rhexis::app

@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include "app/stopwatch.hpp"
+#include "app/terminal.hpp"
 #include "core/printable.hpp"
 
 namespace rhexis::app {
@@ -37,10 +37,10 @@ std::string duration(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
 
-Console::Console(bool speaks, bool quiet)
-    : speaks_(
-          speaks &&
-          !quiet),  // mpirun gives the first rank a terminal of its own even where the output goes to a file.
+Console::Console(bool is_root, bool quiet)
+    : is_root_(is_root),
+      speaks_(is_root && !quiet),
+      // mpirun gives the first rank a terminal of its own even where the output goes to a file.
       terminal_(isatty(STDOUT_FILENO) != 0 && std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {}
 
 Console::~Console() {
@@ -50,8 +50,7 @@ Console::~Console() {
 void Console::line(const std::string& text) {
   if (!speaks_) return;
   clear_bar();
-  fmt::print("{}\n", printable(text));
-  std::fflush(stdout);
+  print_out(printable(text) + '\n');
 }
 
 void Console::item(const std::string& label, const std::string& text) {
@@ -61,8 +60,12 @@ void Console::item(const std::string& label, const std::string& text) {
 void Console::warning(const std::string& text) {
   if (!speaks_) return;
   clear_bar();
-  std::fflush(stdout);
-  fmt::print(stderr, "rhexis: warning: {}\n", printable(text, longest_warning));
+  print_error(fmt::format("rhexis: warning: {}\n", printable(text, longest_warning)));
+}
+
+void Console::important(const std::string& text) {
+  line(text);
+  if (is_root_ && !speaks_) print_error(printable(text) + '\n');
 }
 
 void Console::progress(long step, long steps, const std::string& state, const std::string& what) {
@@ -86,10 +89,9 @@ void Console::progress(long step, long steps, const std::string& state, const st
     last_drawn_ = now;
     constexpr long width = 24;
     const long full = width * step / steps;
-    fmt::print("\r\033[K  [{}{}] {:3d} %  {}", std::string(full, '#'), std::string(width - full, '.'),
-               100 * step / steps, text());
+    print_out(fmt::format("\r\033[K  [{}{}] {:3d} %  {}", std::string(full, '#'),
+                          std::string(width - full, '.'), 100 * step / steps, text()));
     bar_shown_ = true;
-    std::fflush(stdout);
   } else if (step * 10 / steps > last_tenth_) {
     last_tenth_ = step * 10 / steps;
     line(fmt::format("  {:3d} %  {}", 100 * step / steps, text()));
@@ -98,8 +100,7 @@ void Console::progress(long step, long steps, const std::string& state, const st
 
 void Console::clear_bar() {
   if (!bar_shown_) return;
-  fmt::print("\r\033[K");
-  std::fflush(stdout);
+  print_out("\r\033[K");
   bar_shown_ = false;
 }
 

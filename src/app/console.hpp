@@ -13,7 +13,7 @@ std::string duration(double seconds);
 
 class Console {
  public:
-  Console(bool speaks, bool quiet);
+  Console(bool is_root, bool quiet);
   ~Console();
 
   /// A line of its own; a progress bar below it is drawn anew.
@@ -21,6 +21,8 @@ class Console {
   /// "  label       text".
   void item(const std::string& label, const std::string& text);
   void warning(const std::string& text);
+  /// What the user must know to go on: a line, or an error message where the rest is not to be said.
+  void important(const std::string& text);
 
   /// A bar with rate and time left where stdout is a terminal; else a line at every tenth of the way.
   /// `what` is counted.
@@ -29,7 +31,7 @@ class Console {
  private:
   void clear_bar();
 
-  bool speaks_, terminal_;
+  bool is_root_, speaks_, terminal_;
   bool bar_shown_ = false;
   long first_step_ = -1, last_tenth_ = -1;
   double start_ = 0, last_drawn_ = 0;

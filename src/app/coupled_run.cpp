@@ -51,17 +51,17 @@ class CascadeRun : private RunBase {
       results_.cascade = nlohmann::ordered_json::array();
       if (!state_.events.empty()) write_table();
       std::string obstacle;  // to the next event
-      Ending last = Ending::completed;
+      Ending last;
       const auto goes_on = [&] {
-        return obstacle.empty() && !network_->at_rest() && last == Ending::completed && !all_simulated();
+        return obstacle.empty() && !network_->at_rest() && !last.interrupted() && !all_simulated();
       };
       while (goes_on()) {
         last = simulate();
-        if (last == Ending::completed) write_checkpoint();
+        if (!last.interrupted()) write_checkpoint();
         write_table();
         prepare_next_event();
         solve_network();
-        if (last == Ending::completed) write_checkpoint();
+        if (!last.interrupted()) write_checkpoint();
         write_table();
         if (!goes_on()) break;
         try {
@@ -75,9 +75,9 @@ class CascadeRun : private RunBase {
       finish_insitu();
       make_movie();
       if (!obstacle.empty()) throw RunError(obstacle);
-      return last == Ending::interrupted;
+      return last.signal;
     });
-    say_summary(ending == Ending::interrupted ? "interrupted"
+    say_summary(ending.interrupted() ? interrupted_by(ending.signal)
                 : network_->at_rest()
                     ? fmt::format("no other vessel's risk is above {}", text(c_.coupling.risk_limit))
                     : "after cascade.events");
@@ -171,7 +171,7 @@ class CascadeRun : private RunBase {
                        .opening = r.opening_area_m2.value_or(0),
                        .inflow_before = network_->inflow()};
     // An interrupted wall might have torn yet.
-    if (ending == Ending::interrupted && !r.rupture_onset_s) event.ruptured.reset();
+    if (ending.interrupted() && !r.rupture_onset_s) event.ruptured.reset();
     if (r.rupture_onset_s) event.time = state_.elapsed + *r.rupture_onset_s;
     state_.aftermath.settled.push_back(static_cast<std::uint32_t>(vessel.vessel));
     if (r.rupture_onset_s) {

@@ -68,7 +68,7 @@ Ending EnsembleRun::run() {
     say_header();
     run_samples();
     finish();
-    return interrupted_;
+    return signal_;
   });
   say_summary();
   return ending;
@@ -150,20 +150,20 @@ void EnsembleRun::run_samples() {
   };
   progress(0);
   std::size_t each = 1;  // samples of a rank in a round
-  for (std::size_t next = 0; next < tasks_.size() && !interrupted_;) {
+  for (std::size_t next = 0; next < tasks_.size() && signal_ == 0;) {
     const std::size_t count = std::min(each * ranks, tasks_.size() - next);
     const double start = seconds_now();
-    interrupted_ = run_round(next, count);
+    signal_ = run_round(next, count);
     const double per_sample =
         comm_.all_reduce((seconds_now() - start) / static_cast<double>(each), parallel::Reduce::max);
     each = static_cast<std::size_t>(std::clamp(round_s / per_sample, 1.0, 1000.0));
     next += count;
-    if (!interrupted_) progress(next);
+    if (signal_ == 0) progress(next);
   }
 }
 
-/// Does tasks [first, first + count) and keeps what has come of them. Whether an interrupt ended it.
-bool EnsembleRun::run_round(std::size_t first, std::size_t count) {
+/// Does tasks [first, first + count) and keeps what has come of them. The signal that ended it, or 0.
+int EnsembleRun::run_round(std::size_t first, std::size_t count) {
   const auto ranks = static_cast<std::size_t>(comm_.size()), rank = static_cast<std::size_t>(comm_.rank());
   std::vector<Sample> finished;
   std::string failure;
@@ -191,8 +191,8 @@ bool EnsembleRun::run_round(std::size_t first, std::size_t count) {
   keep(finished);
   failure = comm_.first_non_empty(failure);
   if (!failure.empty()) throw RunError(failure);
-  const bool asked = comm_.all_reduce(std::int64_t{InterruptGuard::requested()}, parallel::Reduce::max) != 0;
-  return asked && samples_.size() - earlier_ < tasks_.size();
+  const auto signal = comm_.all_reduce(std::int64_t{InterruptGuard::requested()}, parallel::Reduce::max);
+  return samples_.size() - earlier_ < tasks_.size() ? static_cast<int>(signal) : 0;
 }
 
 void EnsembleRun::keep(const std::vector<Sample>& finished) {
@@ -236,8 +236,12 @@ void EnsembleRun::finish() {
 }
 
 void EnsembleRun::say_summary() {
-  console_.line(interrupted_ ? "Interrupted; finished samples are saved. The same command goes on."
-                             : "Done.");
+  if (signal_ != 0) {
+    console_.important(fmt::format("Interrupted by {}; finished samples are saved. The same command goes on.",
+                                   signal_name(signal_)));
+  } else {
+    console_.line("Done.");
+  }
   console_.line("    pressure    samples  ruptured  probability   95 % interval   mean onset");
   for (const ensemble::Probability& p : probabilities_) {
     const auto [low, high] = p.interval();

@@ -30,7 +30,7 @@ class EnsembleRun : private RunBase {
   void open_results();
   void say_header();
   void run_samples();
-  bool run_round(std::size_t first, std::size_t count);
+  int run_round(std::size_t first, std::size_t count);
   void keep(const std::vector<ensemble::Sample>& finished);
   void finish();
   void say_summary();
@@ -40,7 +40,7 @@ class EnsembleRun : private RunBase {
   std::vector<Task> tasks_;                ///< samples to do
   std::vector<ensemble::Probability> probabilities_;
   output::TableFile table_;
-  bool interrupted_ = false;
+  int signal_ = 0;           ///< that ended it
   std::size_t earlier_ = 0;  ///< samples that an earlier run had done
   double sample_s_ = 0;      ///< spent in samples by this rank
   std::int64_t bond_evaluations_ = 0;

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <exception>
 
+#include "app/terminal.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "parallel/communicator.hpp"
@@ -21,8 +21,7 @@ constexpr std::size_t longest_message = 4000;
 template <class Work>
 int guarded(parallel::Communicator comm, const Work& work) {
   const auto say = [&](const char* what) {
-    std::fflush(stdout);
-    if (comm.is_root()) fmt::print(stderr, "rhexis: {}\n", printable(what, longest_message));
+    if (comm.is_root()) print_error(fmt::format("rhexis: {}\n", printable(what, longest_message)));
   };
   try {
     return work();
@@ -33,7 +32,8 @@ int guarded(parallel::Communicator comm, const Work& work) {
     say(error.what());
     return 3;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "rhexis: rank {}: {}\n", comm.rank(), printable(reason_of(error), longest_message));
+    print_error(
+        fmt::format("rhexis: rank {}: {}\n", comm.rank(), printable(reason_of(error), longest_message)));
     comm.abort(3);
   }
 }

@@ -1,75 +1,193 @@
 #include "app/interrupt.hpp"
 
-#include <fcntl.h>
+#include <fmt/format.h>
+#include <semaphore.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <string_view>
+#include <mutex>
+#include <thread>
+#include <vector>
 
+#include "app/terminal.hpp"
 #include "output/temporary_file.hpp"
 
 namespace rhexis::app {
 namespace {
 
-volatile std::sig_atomic_t interrupt_requested = 0;
+constexpr std::array watched = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
+constexpr std::array names = {"SIGINT", "SIGTERM", "SIGHUP", "SIGUSR1", "SIGXCPU"};
 
-extern "C" void note_interrupt(int signal) {
-  interrupt_requested = 1;
-  std::signal(signal, SIG_DFL);
+std::size_t place_of(int signal) {
+  return static_cast<std::size_t>(std::find(watched.begin(), watched.end(), signal) - watched.begin());
 }
 
-/// Made beforehand, because a handler may neither allocate nor format.
-struct {
-  std::string file, temporary, text;
-} last_words;
+/// Batch systems send them ahead of the end, some again and again.
+bool is_advance_notice(int signal) {
+  return signal == SIGUSR1 || signal == SIGXCPU;
+}
 
-void write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = write(file, text.data(), text.size());
-    if (written <= 0) return;
-    text.remove_prefix(static_cast<std::size_t>(written));
+// What the handler touches.
+std::atomic<int> first_signal = 0, guards = 0;
+std::array<std::atomic<int>, watched.size()> noted{};  ///< how often, while a guard lived
+std::atomic<int> fatal = 0;                            ///< signal that came without one
+std::atomic<bool> leave = false;                       ///< the thread's work is done
+sem_t wake;
+
+extern "C" void note_signal(int signal) {
+  const int error = errno;
+  int none = 0;
+  first_signal.compare_exchange_strong(none, signal);
+  if (guards > 0) {
+    ++noted[place_of(signal)];
+  } else {
+    fatal = signal;
   }
+  sem_post(&wake);
+  errno = error;
 }
 
-extern "C" void say_last_words(int) {
-  const int file = open(last_words.temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file >= 0) {
-    write_all(file, last_words.text);
-    close(file);
-    rename(last_words.temporary.c_str(), last_words.file.c_str());
+/// What signals come to, apart from the run itself.
+class Watch {
+ public:
+  static Watch& instance() {
+    static Watch& watch = *new Watch;  // outlives all threads
+    return watch;
   }
-  write_all(STDERR_FILENO, "rhexis: interrupted\n");
-  _exit(130);
-}
 
-void catch_signals(void (*handler)(int)) {
-  std::signal(SIGINT, handler);
-  std::signal(SIGTERM, handler);
-}
+  void add(output::RunRecord& record, const std::filesystem::path& folder, bool writes) {
+    const std::lock_guard lock(mutex_);
+    records_.push_back(&record);
+    if (records_.size() > 1) return;  // of a run within a run, in a folder within its folder
+    folder_ = folder;
+    writes_ = writes;
+    for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], nullptr, &before_[i]);
+    catch_signals();
+    leave = false;
+    thread_ = std::thread([this] { watch(); });
+  }
+
+  void remove(const output::RunRecord& record) {
+    {
+      const std::lock_guard lock(mutex_);
+      std::erase(records_, &record);
+      if (!records_.empty()) return;
+      for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &before_[i], nullptr);
+    }
+    leave = true;
+    sem_post(&wake);
+    thread_.join();
+  }
+
+  /// Again where a library has put its own handlers in between.
+  void catch_signals() {
+    struct sigaction action = {};
+    action.sa_handler = note_signal;
+    action.sa_flags = SA_RESTART;
+    sigemptyset(&action.sa_mask);
+    for (std::size_t i = 0; i < watched.size(); ++i) {
+      const bool stays_ignored = watched[i] == SIGHUP && before_[i].sa_handler == SIG_IGN;
+      if (!stays_ignored) sigaction(watched[i], &action, nullptr);
+    }
+  }
+
+  void fail_records(const std::string& reason) noexcept {
+    const std::lock_guard lock(mutex_);
+    for (output::RunRecord* record : records_) record->fail_alone(reason);
+  }
+
+ private:
+  Watch() { sem_init(&wake, 0, 0); }
+
+  void watch() {
+    while (!leave) {
+      if (sem_wait(&wake) != 0) continue;
+      if (const int signal = fatal) end_at_once(signal);
+      for (std::size_t i = 0; i < watched.size(); ++i) {
+        for (; seen_[i] < noted[i]; ++seen_[i]) take_notice(watched[i]);
+      }
+    }
+  }
+
+  void take_notice(int signal) {
+    if (++count_ == 1) {
+      if (writes_) fail_records(interrupted_by(signal) + ", and ended before its state was saved");
+      say(fmt::format("{}: the run saves its state and ends", signal_name(signal)));
+    } else if (is_advance_notice(signal) || ++repetitions_ == 1) {
+      say(fmt::format("{}: the run is saving its state; a third Ctrl-C or kill ends it at once",
+                      signal_name(signal)));
+    } else {
+      end_at_once(signal);
+    }
+  }
+
+  [[noreturn]] void end_at_once(int signal) {
+    if (writes_) {
+      fail_records(interrupted_by(signal));
+      output::remove_temporaries(folder_);
+    }
+    say(interrupted_by(signal));
+    _exit(128 + signal);
+  }
+
+  void say(const std::string& text) const {
+    if (writes_) print_error(fmt::format("rhexis: {}\n", text));
+  }
+
+  std::mutex mutex_;
+  std::vector<output::RunRecord*> records_;
+  std::filesystem::path folder_;
+  bool writes_ = false;
+  std::array<struct sigaction, watched.size()> before_{};
+  std::thread thread_;
+  std::array<int, watched.size()> seen_{};
+  int count_ = 0, repetitions_ = 0;
+};
 
 }  // namespace
 
-LastWords::LastWords(const std::filesystem::path& file, std::string text) {
-  last_words = {file.string(), output::temporary_name_beside(file).string(), std::move(text)};
-  catch_signals(say_last_words);
+void ignore_signals_of_writing() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
-LastWords::~LastWords() {
-  catch_signals(SIG_DFL);
+std::string signal_name(int signal) {
+  const std::size_t place = place_of(signal);
+  return place < names.size() ? names[place] : fmt::format("signal {}", signal);
+}
+
+std::string interrupted_by(int signal) {
+  return "interrupted by " + signal_name(signal);
+}
+
+SignalWatch::SignalWatch(output::RunRecord& record, const std::filesystem::path& folder, bool writes)
+    : record_(&record) {
+  Watch::instance().add(record, folder, writes);
+}
+
+SignalWatch::~SignalWatch() {
+  Watch::instance().remove(*record_);
 }
 
 InterruptGuard::InterruptGuard() {
-  interrupt_requested = 0;
-  catch_signals(note_interrupt);
+  Watch::instance().catch_signals();
+  ++guards;
 }
 
 InterruptGuard::~InterruptGuard() {
-  catch_signals(SIG_DFL);
+  --guards;
 }
 
-bool InterruptGuard::requested() {
-  return interrupt_requested != 0;
+int InterruptGuard::requested() {
+  return first_signal;
+}
+
+void fail_records_alone(const std::string& reason) noexcept {
+  Watch::instance().fail_records(reason);
 }
 
 }  // namespace rhexis::app

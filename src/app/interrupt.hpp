@@ -1,13 +1,46 @@
-/// Ctrl-C, and SIGTERM, which mpirun and batch systems send.
+/// Signals that ask a run to end: SIGINT (Ctrl-C), SIGTERM (mpirun, batch systems), SIGHUP (the terminal is
+/// gone; not where it is ignored, as under nohup), and SIGUSR1 and SIGXCPU, which batch systems send some
+/// time ahead of the end.
+///
+/// A handler only notes a signal; a thread does the rest, so that a run which is stuck (in a message to a
+/// rank that died) leaves a true record too.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
+#include "output/run_record.hpp"
+
 namespace rhexis::app {
 
-/// Notes signals while it lives, for the next step to act on. A second one ends the program at once, as
-/// without it.
+/// Files beyond the limit of their size (SIGXFSZ) and closed pipes (SIGPIPE) become failures of the call
+/// that writes. At the program's start.
+void ignore_signals_of_writing();
+
+/// "SIGTERM".
+std::string signal_name(int signal);
+/// "interrupted by SIGTERM".
+std::string interrupted_by(int signal);
+
+/// A run's record that is told of signals while this lives; without one, signals do what they do by default.
+/// Where no InterruptGuard lives besides, there is nothing to save: a signal leaves its words in the record
+/// and ends the program with status 128 + signal.
+class SignalWatch {
+ public:
+  /// `folder`: where temporary files are to go when the program ends at once. `writes`: this rank is the one
+  /// that tells the record, and the user.
+  SignalWatch(output::RunRecord& record, const std::filesystem::path& folder, bool writes);
+  ~SignalWatch();
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+
+ private:
+  output::RunRecord* record_;
+};
+
+/// While it lives, the first signal is left to the run to act on: the record tells of it at once, in case
+/// nothing more comes of it. A second SIGINT, SIGTERM or SIGHUP changes nothing, a third ends the program at
+/// once.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -15,17 +48,12 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  static bool requested();
+  /// The first signal, of this rank; 0 where there was none.
+  static int requested();
 };
 
-/// For work that cannot be stopped half way and has nothing to save: a signal leaves `text` in the file and
-/// ends the program with status 130. One at a time.
-class LastWords {
- public:
-  LastWords(const std::filesystem::path& file, std::string text);
-  ~LastWords();
-  LastWords(const LastWords&) = delete;
-  LastWords& operator=(const LastWords&) = delete;
-};
+/// Tells the records of all runs at work that they end for this reason, which this rank alone knows: it is
+/// about to end the program for all.
+void fail_records_alone(const std::string& reason) noexcept;
 
 }  // namespace rhexis::app

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <csignal>
 #include <map>
 #include <set>
 #include <string_view>
@@ -17,13 +18,30 @@ extern char** environ;
 namespace rhexis::app {
 namespace {
 
+/// Other programs get signals as they expect them, not as this one has set them.
+struct DefaultSignals {
+  DefaultSignals() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&signals, signal);
+    posix_spawnattr_init(&value);
+    posix_spawnattr_setsigdefault(&value, &signals);
+    posix_spawnattr_setflags(&value, POSIX_SPAWN_SETSIGDEF);
+  }
+  ~DefaultSignals() { posix_spawnattr_destroy(&value); }
+  DefaultSignals(const DefaultSignals&) = delete;
+  DefaultSignals& operator=(const DefaultSignals&) = delete;
+  posix_spawnattr_t value;
+};
+
 /// Exit status of a program found in PATH; -1 where it cannot be started.
 int run_program(std::vector<std::string> arguments) {
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
+  const DefaultSignals attributes;
   pid_t child = 0;
-  if (posix_spawnp(&child, argv[0], nullptr, nullptr, argv.data(), environ) != 0) return -1;
+  if (posix_spawnp(&child, argv[0], nullptr, &attributes.value, argv.data(), environ) != 0) return -1;
   int status = 0;
   if (waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
   return WEXITSTATUS(status);

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
-#include "app/interrupt.hpp"
 #include "app/network_files.hpp"
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
@@ -24,15 +21,13 @@ Ending NetworkRun::run() {
     start_insitu();
     open_record();
     say_header();
-    std::optional<LastWords> words;
-    if (comm_.is_root()) words.emplace(folder_->path() / "run.json", record_->failed_text("interrupted"));
     solve();
     {
       const Stopwatch watch(spent_.output);
       write_network(c_, solution_, *folder_, comm_);
     }
     draw();
-    return false;
+    return 0;
   });
   say_summary();
   return ending;

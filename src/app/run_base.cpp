@@ -9,6 +9,7 @@
 #include "app/folder_plan.hpp"
 #include "app/movie.hpp"
 #include "app/stopwatch.hpp"
+#include "app/terminal.hpp"
 #include "app/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -48,6 +49,7 @@ void RunBase::open_record(std::optional<std::int64_t> first_step) {
   if (!options_.restart.empty()) provenance.checkpoint = options_.restart.string();
   folder_->remove_earlier_results();
   record_.emplace(folder_->claim("run.json"), provenance, comm_);
+  signals_.emplace(*record_, folder_->path(), comm_.is_root());
 }
 
 void RunBase::warn(const std::string& text) {
@@ -55,10 +57,10 @@ void RunBase::warn(const std::string& text) {
   if (record_) record_->warn(text);
 }
 
-Ending RunBase::recorded(const std::function<bool()>& work) {
-  bool interrupted = false;
+Ending RunBase::recorded(const std::function<int()>& work) {
+  int signal = 0;
   try {
-    interrupted = work();
+    signal = work();
   } catch (const InputError& error) {
     if (!record_) throw;
     note_failure(error.what());
@@ -70,12 +72,16 @@ Ending RunBase::recorded(const std::function<bool()>& work) {
     if (record_) record_->fail_alone(reason_of(error));
     throw;
   }
-  if (interrupted) {
-    record_->fail("interrupted", results_, performance());
+  if (comm_.is_root() && !output_failure().empty()) {
+    warn(fmt::format("stdout could not be written ({}): what the run said there is lost, its results are not",
+                     output_failure()));
+  }
+  if (signal != 0) {
+    record_->fail(interrupted_by(signal), results_, performance());
   } else {
     record_->complete(results_, performance());
   }
-  return interrupted ? Ending::interrupted : Ending::completed;
+  return {signal};
 }
 
 /// A disk that is full for this too must not hide the reason.
@@ -93,9 +99,7 @@ void RunBase::start_insitu() {
   pictures_ = options_.pictures;
   if (!pictures_)
     pictures_ = std::make_shared<Pictures>(
-        start_pictures(c_, *folder_, !options_.restart.empty(), comm_, [this](const std::string& reason) {
-          if (record_) record_->fail_alone(reason);
-        }));
+        start_pictures(c_, *folder_, !options_.restart.empty(), comm_, fail_records_alone));
 }
 
 void RunBase::finish_insitu() {

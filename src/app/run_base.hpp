@@ -9,6 +9,7 @@
 
 #include "app/configuration.hpp"
 #include "app/console.hpp"
+#include "app/interrupt.hpp"
 #include "app/pictures.hpp"
 #include "app/run_options.hpp"
 #include "output/machine.hpp"
@@ -45,9 +46,9 @@ class RunBase {
   /// The results of earlier runs go, and run.json begins: once all that may be wrong with the input is known.
   /// `first_step` is that of options_.restart.
   void open_record(std::optional<std::int64_t> first_step = {});
-  /// Does `work`, which returns whether an interrupt ended it, and tells run.json how it ended. What is found
+  /// Does `work`, which returns the signal that ended it or 0, and tells run.json how it ended. What is found
   /// to be wrong with the input once run.json has begun is a failure of the run.
-  Ending recorded(const std::function<bool()>& work);
+  Ending recorded(const std::function<int()>& work);
   /// Starts ParaView, or settles why there will be no pictures. Collective. Throws InputError for a bad
   /// script.
   void start_insitu();
@@ -79,6 +80,7 @@ class RunBase {
   parallel::Communicator comm_;
   Console console_;
   std::optional<output::RunRecord> record_;
+  std::optional<SignalWatch> signals_;
   output::Results results_;
   Spent spent_;
   std::shared_ptr<Pictures> pictures_;

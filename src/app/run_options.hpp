@@ -24,6 +24,11 @@ struct RunOptions {
   std::optional<output::ResultsFolder> folder = {};  ///< that has been taken for it; none: the run takes it
 };
 
-enum class Ending { completed, interrupted };
+/// By itself, or by a signal.
+struct Ending {
+  int signal = 0;  ///< 0: by itself
+
+  bool interrupted() const { return signal != 0; }
+};
 
 }  // namespace rhexis::app

@@ -78,9 +78,10 @@ void VesselRun::write_checkpoint(long step) {
   });
   if (coupling_ != nullptr) coupling_->save(file);
   file.close();
-  if (interrupted_) {
-    console_.line("  interrupted; go on with --restart " + path.string());
-  }
+  last_checkpoint_ = path;
+  if (signal_ == 0) return;
+  if (comm_.is_root()) record_->fail_alone(interrupted_by(signal_));
+  console_.important(fmt::format("  {}; go on with --restart {}", interrupted_by(signal_), path.string()));
 }
 
 /// Refuses the checkpoint of another body or time step; warns of another load.

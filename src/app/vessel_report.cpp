@@ -63,7 +63,7 @@ void VesselRun::say_summary() {
   const output::Results& r = results_;
   const output::Performance p = performance();
   const auto at = [](const std::optional<double>& time) { return time ? quantity(*time, "s") : "none"; };
-  console_.line(interrupted_ ? "Interrupted; everything so far is saved." : "Done.");
+  console_.line(signal_ != 0 ? "Interrupted; everything so far is saved." : "Done.");
   console_.item("first break", at(r.first_bond_break_s));
   console_.item("rupture", r.rupture_onset_s
                                ? fmt::format("begins at {} (damage {} somewhere), {} long at the end",

@@ -23,8 +23,22 @@ namespace {
 /// Steps between measurements of the opening, once bonds have begun to break.
 constexpr long venting_interval = 10;
 
-/// What ranks tell each other after every step, as bits.
-enum Flag : std::uint64_t { interrupted = 1, broken = 2, ruptured = 4, unstable = 8 };
+/// What ranks tell each other after every step, as bits; those of signals come above.
+enum Flag : std::uint64_t { broken = 1, ruptured = 2, unstable = 4, signal_0 = 8 };
+
+struct UnstableError : RunError {
+  using RunError::RunError;
+};
+
+std::uint64_t flag_of_signal(int signal) {
+  return signal == 0 ? 0 : Flag::signal_0 << signal;
+}
+
+/// One of the signals that ranks have got, the same on all; 0 where there is none.
+int signal_in(std::uint64_t flags) {
+  const std::uint64_t signals = flags / Flag::signal_0;
+  return signals == 0 ? 0 : std::countr_zero(signals);
+}
 
 }  // namespace
 
@@ -60,7 +74,7 @@ Ending VesselRun::run() {
     }
     finish_insitu();
     make_movie();
-    return interrupted_;
+    return signal_;
   });
   say_summary();
   return ending;
@@ -153,7 +167,7 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   }
   // A restart's first moment begins its own series of particles; in history.csv, which it continues, it would
   // be one row more than a run in one go has.
-  if (with_output && (output_due(step) || interrupted_)) {
+  if (with_output && (output_due(step) || signal_ != 0)) {
     const Stopwatch watch(spent_.output);
     const peridynamics::Totals t = body_->totals();
     // Beside a hole particles have lost about half of their bonds.
@@ -174,6 +188,7 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     const double energy = t.kinetic + t.strain + t.fracture;
     const double scale = std::max(std::abs(t.external_work), energy);
     results_.energy_drift = scale > 0 ? (energy - t.external_work) / scale : 0.0;
+    record_->know(results_);
     history_->append({step, time_at(step), pressure, t.max_displacement, t.max_damage,
                       static_cast<long>(t.broken_bonds), t.kinetic, t.strain, t.external_work,
                       t.rupture_length, leak, t.fracture, open_area_});
@@ -187,6 +202,27 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     LaterSource particles(*source_, *pictures_);
     pictures_->pipeline->process(
         {.particles = &particles, .network = coupling_ != nullptr ? &coupling_->lines() : nullptr});
+  }
+}
+
+/// Observes the moment at hand. Where that can be stored or drawn no longer, the state is saved, if it can
+/// be.
+void VesselRun::show(bool with_output, bool with_pictures) {
+  try {
+    observe(step_, with_output, with_pictures);
+  } catch (const UnstableError&) {  // a state of no use
+    throw;
+  } catch (const RunError&) {
+    // A restart exchanges anew at its first step.
+    const bool has_exchanged = coupling_ != nullptr && coupling_->due(step_);
+    try {
+      if (!has_exchanged) write_checkpoint(step_);
+      if (!last_checkpoint_.empty())
+        console_.important(fmt::format("  failed; go on with --restart {}", last_checkpoint_.string()));
+    } catch (const RunError& also) {
+      warn(std::string("no checkpoint: ") + also.what());
+    }
+    throw;
   }
 }
 
@@ -220,7 +256,7 @@ void VesselRun::check_balance(long step, const peridynamics::Totals& t) const {
   // Leapfrog's velocity is half a step ahead of the work: after one step of a ramp from zero it is all there
   // is.
   if (step < 2 || peridynamics::holds_no_more_than_was_put_in(t)) return;
-  throw RunError(unstable_message(step, "the wall holds more energy than the load has put in"));
+  throw UnstableError(unstable_message(step, "the wall holds more energy than the load has put in"));
 }
 
 /// 1, 2, 4, ... steps after the first break: a wall that an unstable step tears is not to pass for a rupture
@@ -245,7 +281,7 @@ void VesselRun::warn_of_crushed_bonds(long step, const peridynamics::Totals& t) 
 /// Notes what the forces' evaluation at `step` brought about, on any rank.
 void VesselRun::take_notice(long step, std::uint64_t flags) {
   if (flags & Flag::unstable) {
-    throw RunError(unstable_message(step, "a particle outran what the load can do"));
+    throw UnstableError(unstable_message(step, "a particle outran what the load can do"));
   }
   if (flags & Flag::broken && !results_.first_bond_break_s) results_.first_bond_break_s = time_at(step);
   if (flags & Flag::ruptured && !results_.rupture_onset_s) {
@@ -296,17 +332,17 @@ void VesselRun::exchange(long step) {
 void VesselRun::time_loop() {
   const InterruptGuard guard;
   for (step_ = first_step_;; ++step_) {
-    const bool due = output_due(step_) || step_ == first_step_ || interrupted_;
+    const bool due = output_due(step_) || step_ == first_step_ || signal_ != 0;
     const bool pictures = pictures_due(step_, due);
     const bool saves =
         c_.output.checkpoint_every > 0 && step_ > first_step_ && step_ % c_.output.checkpoint_every == 0;
     // First of all, because a launcher that was interrupted may not leave time for more.
-    if (interrupted_ || saves) write_checkpoint(step_);
+    if (signal_ != 0 || saves) write_checkpoint(step_);
     if (coupling_ != nullptr && coupling_->due(step_)) {
       const Stopwatch watch(spent_.solve);
       exchange(step_);
     }
-    if (due || pictures) observe(step_, due, pictures);
+    if (due || pictures) show(due, pictures);
     if (!due && balance_due(step_)) {
       const Stopwatch watch(spent_.solve);
       body_->observe(pressure_at(step_) * vent_now_);
@@ -315,7 +351,7 @@ void VesselRun::time_loop() {
     console_.progress(step_, c_.steps,
                       fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
                                   quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
-    if (interrupted_ || step_ == c_.steps) {
+    if (signal_ != 0 || step_ == c_.steps) {
       // No further step tells what happened at this one.
       const peridynamics::Totals t = body_->totals();
       std::uint64_t flags = 0;
@@ -329,14 +365,13 @@ void VesselRun::time_loop() {
     vent(step_);
     const peridynamics::StepEvents events =
         body_->advance(pressure_at(step_) * vent_now_, pressure_at(step_ + 1) * vent_next_);
-    std::uint64_t flags = 0;
-    if (InterruptGuard::requested()) flags |= Flag::interrupted;
+    std::uint64_t flags = flag_of_signal(InterruptGuard::requested());
     if (events.broken > 0) flags |= Flag::broken;
     if (events.damaged) flags |= Flag::ruptured;
     if (events.unstable) flags |= Flag::unstable;
     comm_.all_reduce({&flags, 1}, parallel::Reduce::bit_or);
     take_notice(step_, flags);
-    interrupted_ = (flags & Flag::interrupted) != 0 && step_ + 1 < c_.steps;  // after the last one it is done
+    if (step_ + 1 < c_.steps) signal_ = signal_in(flags);  // after the last step it is done
     vent_now_ = vent_next_;
   }
 }

@@ -44,6 +44,7 @@ class VesselRun : private RunBase {
   void warn_of_crushed_bonds(long step, const peridynamics::Totals& t);
   void warn_of_odd_openings();
   void observe(long step, bool with_output, bool with_pictures);
+  void show(bool with_output, bool with_pictures);
   bool output_due(long step) const;
   bool pictures_due(long step, bool with_output);
   void take_notice(long step, std::uint64_t flags);
@@ -74,9 +75,11 @@ class VesselRun : private RunBase {
   std::optional<output::PointSeries> series_;
   std::optional<output::History> history_;
 
+  std::filesystem::path last_checkpoint_;  ///< that this run has written
   std::int64_t start_bond_evaluations_ = 0;
   long first_step_ = 0, step_ = 0;
-  bool interrupted_ = false, crushing_was_said_ = false, turbulence_was_said_ = false;
+  int signal_ = 0;  ///< that asks this run to end
+  bool crushing_was_said_ = false, turbulence_was_said_ = false;
   double open_area_ = 0;                 ///< m2
   double vent_now_ = 1, vent_next_ = 1;  ///< shares of the scheduled pressure, at t_n and t_{n+1}
   double least_vent_ = 1;

@@ -43,15 +43,19 @@ void write_atomically(const std::filesystem::path& path, std::string_view text) 
 
 TableFile::TableFile(std::filesystem::path path, std::string_view text) : path_(std::move(path)) {
   write_atomically(path_, text);
+  identity_.emplace(path_);
   descriptor_ = open(path_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
   if (descriptor_ < 0) fail(path_, "open the file", errno);
 }
 
 TableFile::TableFile(TableFile&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : path_(std::move(other.path_)),
+      identity_(std::move(other.identity_)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 TableFile& TableFile::operator=(TableFile&& other) noexcept {
   std::swap(path_, other.path_);
+  std::swap(identity_, other.identity_);
   std::swap(descriptor_, other.descriptor_);
   return *this;
 }
@@ -61,6 +65,7 @@ TableFile::~TableFile() {
 }
 
 void TableFile::append(std::string_view rows) {
+  identity_->require_unchanged();
   const off_t before = lseek(descriptor_, 0, SEEK_END);
   if (write_all(descriptor_, rows)) return;
   const int reason = errno;

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string_view>
+
+#include "output/file_identity.hpp"
 
 namespace rhexis::output {
 
@@ -12,7 +15,7 @@ namespace rhexis::output {
 void write_atomically(const std::filesystem::path& path, std::string_view text);
 
 /// A text file to which rows are added at its end, each handed to the system at once. Local to the calling
-/// rank. Throws RunError that names the file and the reason (disk full).
+/// rank. Throws RunError that names the file and the reason (disk full, or somebody has taken the file away).
 class TableFile {
  public:
   TableFile() = default;  ///< no file
@@ -27,6 +30,7 @@ class TableFile {
 
  private:
   std::filesystem::path path_;
+  std::optional<FileIdentity> identity_;
   int descriptor_ = -1;
 };
 

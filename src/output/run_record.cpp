@@ -1,5 +1,6 @@
 #include "output/run_record.hpp"
 
+#include <fstream>
 #include <utility>
 
 #include "core/error.hpp"
@@ -97,7 +98,13 @@ RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance,
                             {"first_step", or_null(provenance.first_step)},
                             {"input", provenance.input},
                             {"warnings", Json::array()}});
-  write("running", {}, {});
+  parallel::on_root<RunError>(communicator_, [&] {
+    document_["status"] = nullptr;
+    document_["results"] = Results{};
+    document_["performance"] = Performance{};
+    write(running_status);
+    folder_.emplace(path_.parent_path());
+  });
   if (!communicator_.is_root()) return;
   try {
     spare_ = std::make_unique<SpareSpace>(path_, spare_bytes);
@@ -106,7 +113,14 @@ RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance,
 }
 
 void RunRecord::warn(const std::string& text) {
+  const std::lock_guard lock(mutex_);
   document_["warnings"].push_back(text);
+}
+
+void RunRecord::know(const Results& results) {
+  if (!communicator_.is_root()) return;
+  const std::lock_guard lock(mutex_);
+  document_["results"] = results;
 }
 
 void RunRecord::complete(const Results& results, const Performance& performance) {
@@ -117,34 +131,46 @@ void RunRecord::fail(const std::string& reason, const Results& results, const Pe
   end("failed: " + reason, results, performance);
 }
 
-std::string RunRecord::failed_text(const std::string& reason) const {
-  Json document = document_;
-  document["status"] = "failed: " + reason;
-  for (const char* part : {"results", "performance"})
-    if (!document.contains(part)) document[part] = nullptr;  // only the first rank has them
-  return text_of(document);
-}
-
 void RunRecord::fail_alone(const std::string& reason) noexcept {
   try {
+    const std::lock_guard lock(mutex_);
+    const std::string on_disk = recorded_status(path_);
+    const bool told_by_another =
+        !on_disk.empty() && on_disk != running_status && on_disk != document_.value("status", "");
+    if (ended_ || told_by_another) return;
     spare_.reset();
-    write_atomically(path_, failed_text(reason));
+    write("failed: " + reason);
   } catch (const std::exception&) {  // the reason itself is about to be told
   }
 }
 
 void RunRecord::end(const std::string& status, const Results& results, const Performance& performance) {
-  spare_.reset();
-  write(status, results, performance);
-}
-
-void RunRecord::write(const std::string& status, const Results& results, const Performance& performance) {
   parallel::on_root<RunError>(communicator_, [&] {
-    document_["status"] = status;
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    spare_.reset();
     document_["results"] = results;
     document_["performance"] = performance;
-    write_atomically(path_, text_of(document_));
+    write(status);
   });
+}
+
+/// By the calling rank alone.
+void RunRecord::write(const std::string& status) {
+  if (folder_) folder_->require_unchanged();
+  document_["status"] = status;
+  for (const char* part : {"results", "performance"})
+    if (!document_.contains(part)) document_[part] = nullptr;  // only the first rank has them
+  write_atomically(path_, text_of(document_));
+}
+
+std::string recorded_status(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return {};  // a pipe would keep us waiting
+  std::ifstream file(path, std::ios::binary);
+  const Json record = Json::parse(file, nullptr, /*allow_exceptions=*/false);
+  if (!record.is_object() || !record.contains("status") || !record["status"].is_string()) return {};
+  return record["status"];
 }
 
 }  // namespace rhexis::output

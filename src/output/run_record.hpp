@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "output/disk_space.hpp"
+#include "output/file_identity.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::output {
@@ -86,6 +88,12 @@ struct Provenance {
   nlohmann::ordered_json input = nullptr;       ///< the whole configuration as resolved
 };
 
+/// The status of a run that has not told its end.
+inline constexpr const char* running_status = "running";
+/// What the file run.json says of its run; empty where there is no such file, or it is damaged. Local to the
+/// calling rank.
+std::string recorded_status(const std::filesystem::path& path);
+
 /// The file, from the first moment of a run to its last. Collective; only the root writes, in one step each
 /// time, so the file can be read at any moment. All writing throws RunError on all ranks when it cannot be
 /// done.
@@ -96,24 +104,28 @@ class RunRecord {
 
   /// Something that the user was told; is written with what comes next.
   void warn(const std::string& text);
+  /// The results so far, for a run that ends before it can say more; written with what comes next.
+  void know(const Results& results);
 
   void complete(const Results& results, const Performance& performance);
 
   /// Status "failed: `reason`", with what is known so far.
   void fail(const std::string& reason, const Results& results, const Performance& performance);
 
-  /// The file's text with status "failed: `reason`".
-  std::string failed_text(const std::string& reason) const;
-  /// Writes that, by one rank, which is about to end the program for all. Does not throw.
+  /// Status "failed: `reason`", by one rank and any of its threads: for a program that may end before it can
+  /// say more. Changes nothing once the run has ended, or where another rank has told why. Does not throw.
   void fail_alone(const std::string& reason) noexcept;
 
  private:
-  void write(const std::string& status, const Results& results, const Performance& performance);
+  void write(const std::string& status);
   void end(const std::string& status, const Results& results, const Performance& performance);
 
+  std::mutex mutex_;  ///< of all below
   std::filesystem::path path_;
   nlohmann::ordered_json document_;
   parallel::Communicator communicator_;
+  std::optional<FileIdentity> folder_;  ///< of the first rank
+  bool ended_ = false;
   std::unique_ptr<SpareSpace> spare_;  ///< of the first rank: for the last words, should the disk be full
 };
 

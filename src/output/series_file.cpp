@@ -62,6 +62,7 @@ void SeriesFile::create(std::size_t datasets, const std::function<void(Hdf5File&
       throw RunError(with_name(error.what(), file.name(), path_));
     }
     file.put_in_place();
+    identity_.emplace(path_);
   });
   parallel::together<RunError>(communicator_, [&] {
     file_ = std::make_unique<Hdf5File>(path_, Hdf5File::Mode::modify, communicator_);
@@ -98,7 +99,10 @@ void SeriesFile::reserve(const std::vector<Place>& places) {
       ranges.push_back({all.offset + place.first_row * row, count * row});
     }
   });
-  parallel::on_root<RunError>(communicator_, [&] { reserve_space(path_, ranges); });
+  parallel::on_root<RunError>(communicator_, [&] {
+    identity_->require_unchanged();
+    reserve_space(path_, ranges);
+  });
 }
 
 const void* SeriesFile::packed(const FieldView& view, const Place& place) {

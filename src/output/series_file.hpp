@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/field_view.hpp"
+#include "output/file_identity.hpp"
 #include "output/hdf5_file.hpp"
 #include "output/series_plan.hpp"
 #include "parallel/communicator.hpp"
@@ -65,6 +67,7 @@ class SeriesFile {
   SeriesLayout layout_;
   parallel::Communicator communicator_;
   std::unique_ptr<Hdf5File> file_;
+  std::optional<FileIdentity> identity_;  ///< of the root: somebody may take the file away
   std::vector<float> singles_;   ///< values on their way to the file, in the one precision
   std::vector<double> doubles_;  ///< or the other
 };

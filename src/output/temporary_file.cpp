@@ -10,7 +10,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -48,6 +50,17 @@ bool is_temporary(std::string_view name, std::string_view token) {
   const std::size_t number = name.find_last_not_of("0123456789");
   if (!name.starts_with('.') || number == std::string_view::npos || number + 1 == name.size()) return false;
   return name.substr(0, number + 1).ends_with(fmt::format(".{}-", token));
+}
+
+void remove_temporaries(const std::filesystem::path& folder) noexcept {
+  namespace fs = std::filesystem;
+  try {
+    std::vector<fs::path> ours;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+      if (is_temporary(entry.path().filename().string(), run_token())) ours.push_back(entry.path());
+    for (const fs::path& path : ours) fs::remove_all(path);
+  } catch (const std::exception&) {  // what is left the next run removes
+  }
 }
 
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {

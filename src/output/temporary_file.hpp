@@ -21,6 +21,10 @@ std::filesystem::path temporary_name_beside(const std::filesystem::path& path);
 /// Whether a file of this name is a temporary one of the run that had this token.
 bool is_temporary(std::string_view name, std::string_view token);
 
+/// Removes the temporary files and folders of this process from `folder` and the folders in it, for a program
+/// that ends at once. Does not throw.
+void remove_temporaries(const std::filesystem::path& folder) noexcept;
+
 /// Makes a new, empty file in the folder of `path` and returns its name. What is there already is never
 /// opened, and links are not followed (O_EXCL). Throws RunError that names `path` and the reason.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);

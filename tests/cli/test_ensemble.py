@@ -269,7 +269,7 @@ class Ensemble(unittest.TestCase):
         self.assertEqual(process.returncode, 130, error)
         self.assertIn("Interrupted", out)
         record = json.loads(self.text("out/run.json"))
-        self.assertEqual(record["status"], "failed: interrupted")
+        self.assertEqual(record["status"], "failed: interrupted by SIGINT")
         done = len(self.rows("out/samples.csv"))
         self.assertEqual((record["results"]["ensemble"]["samples"], record["results"]["ensemble"]["samples_left"]), (done, 1200 - done))
         walls = done // 3 + 2

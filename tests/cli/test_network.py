@@ -385,7 +385,7 @@ class Network(unittest.TestCase):
             _, error = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, error)
         record = self.record("out")
-        self.assertEqual((record["status"], record["input"]["tree"]["generations"]["value"]), ("failed: interrupted", 33))
+        self.assertEqual((record["status"], record["input"]["tree"]["generations"]["value"]), ("failed: interrupted by SIGINT", 33))
 
     def test_solver_that_does_not_reach_its_aim_is_status_3(self):
         result = self.rhexis("run", os.path.join(SOURCE, "inputs/circle_of_willis.toml"), "-o", "out", "--set", "insitu.enabled=false",

@@ -46,7 +46,7 @@ class Restart(VesselCase):
         self.assertEqual(process.returncode, 130)
         self.assertIn("--restart", output)
         record = self.record("cut")
-        self.assertEqual(record["status"], "failed: interrupted")
+        self.assertEqual(record["status"], "failed: interrupted by SIGINT")
         last = int(self.history("cut")[-1]["step"])
         self.assertEqual(last, record["results"]["steps"])
         self.assertTrue(os.path.exists(self.path(f"cut/checkpoints/step_{last:06d}.h5")))

@@ -47,6 +47,22 @@ TEST(History, ContinuesAfterARestartWithoutTheRowsBeyondIt) {
             header + "0,0,0,0,0,7,0,0,0,0,,0,0\n10,1,0,0,0,7,0,0,0,0,,0,0\n25,2.5,0,0,0,7,0,0,0,0,,0,0\n");
 }
 
+TEST(History, AFileThatIsTakenAwayOrReplacedIsMissed) {
+  const test::TemporaryDirectory directory;
+  const auto path = directory / "history.csv";
+  History history(path, world);
+  history.append(row_of(1));
+  if (world.is_root()) std::filesystem::rename(path, directory / "other.csv");
+  world.barrier();
+  std::string message = test::message_of<RunError>([&] { history.append(row_of(2)); });
+  EXPECT_NE(message.find("history.csv: has been taken away"), std::string::npos) << message;
+  if (world.is_root()) std::ofstream(path) << "another";
+  world.barrier();
+  message = test::message_of<RunError>([&] { history.append(row_of(2)); });
+  EXPECT_NE(message.find("history.csv: has been replaced"), std::string::npos) << message;
+  EXPECT_EQ(test::text_of(path), "another");
+}
+
 TEST(History, ARestartWithoutAFileStartsOne) {
   const test::TemporaryDirectory directory;
   History history(directory / "history.csv", world, 10);

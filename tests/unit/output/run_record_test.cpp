@@ -116,6 +116,59 @@ TEST(RunRecord, OneRankAloneMayTellHowTheRunEnded) {
   EXPECT_EQ(json["status"], "failed: out of memory");
   EXPECT_EQ(json["version"], "0.1.0");
   EXPECT_TRUE(json.contains("results") && json.contains("performance"));
+  // The first reason stays, also when the first rank is asked to end because of it.
+  if (world.size() > 1) {
+    world.barrier();
+    if (world.is_root()) record.fail_alone("interrupted");
+    world.barrier();
+    EXPECT_EQ(output::recorded_status(directory / "run.json"), "failed: out of memory");
+  }
+}
+
+TEST(RunRecord, WhatIsKnownIsToldByAnEarlyEndButNothingAfterTheEnd) {
+  const test::TemporaryDirectory directory;
+  RunRecord record(directory / "run.json", {}, world);
+  record.know({.steps = 40});
+  for (const std::string reason : {"interrupted, and ended before its state was saved", "interrupted"}) {
+    if (world.is_root()) record.fail_alone(reason);
+    world.barrier();
+    const Json json = Json::parse(test::text_of(directory / "run.json"));
+    EXPECT_EQ(json["status"], "failed: " + reason);
+    EXPECT_EQ(json["results"]["steps"], 40);
+    world.barrier();
+  }
+  record.complete({.steps = 80}, {});
+  if (world.is_root()) record.fail_alone("interrupted");
+  world.barrier();
+  EXPECT_EQ(output::recorded_status(directory / "run.json"), "completed");
+}
+
+TEST(RunRecord, AFolderOfAnotherRunIsLeftAlone) {
+  const test::TemporaryDirectory directory;
+  const auto folder = directory / "out";
+  if (world.is_root()) std::filesystem::create_directory(folder);
+  world.barrier();
+  RunRecord record(folder / "run.json", {}, world);
+  if (world.is_root()) {
+    std::filesystem::rename(folder, directory / "moved");
+    std::filesystem::create_directory(folder);
+  }
+  world.barrier();
+  const std::string message = test::message_of<RunError>([&] { record.complete({}, {}); });
+  EXPECT_NE(message.find("out: has been replaced"), std::string::npos) << message;
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  EXPECT_EQ(output::recorded_status(directory / "moved/run.json"), "running");
+}
+
+TEST(RunRecord, AStatusIsReadFromWhateverIsThere) {
+  const test::TemporaryDirectory directory;
+  for (const std::string text : {"", "[]", "{\"status\": 1}", "{\"status\": \"run", "{}"}) {
+    if (world.is_root()) std::ofstream(directory / "run.json") << text;
+    world.barrier();
+    EXPECT_EQ(output::recorded_status(directory / "run.json"), "");
+    world.barrier();
+  }
+  EXPECT_EQ(output::recorded_status(directory / "none.json"), "");
 }
 
 TEST(RunRecord, AFolderThatIsNotThereIsARunErrorOnAllRanks) {
