@@ -59,18 +59,18 @@ std::string literally(const std::string& path) {
 
 }  // namespace
 
-std::string make_movie(const std::filesystem::path& images, const std::filesystem::path& movie,
-                       double frames_per_second) {
+std::string make_movie(const std::filesystem::path& images, const std::vector<std::string>& names,
+                       const std::filesystem::path& movie, double frames_per_second) {
   struct Series {
     int pictures = 0;
     std::set<std::size_t> digits = {};
   };
   std::map<std::string, Series> all;
-  for (const auto& entry : std::filesystem::directory_iterator(images)) {
-    const std::string name = output::picture_series(entry.path());
-    if (name.empty()) continue;
+  for (const std::filesystem::path picture : names) {
+    const std::string name = output::picture_series(picture);
+    if (name.empty() || picture.has_parent_path()) continue;
     ++all[name].pictures;
-    all[name].digits.insert(entry.path().stem().string().size() - name.size() - 1);
+    all[name].digits.insert(picture.stem().string().size() - name.size() - 1);
   }
   const auto longest = std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return a.second.pictures < b.second.pictures;

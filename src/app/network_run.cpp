@@ -43,7 +43,7 @@ void NetworkRun::solve() {
 void NetworkRun::draw() {
   if (pictures_->pipeline && solution_.shown > 0) {
     const Stopwatch watch(spent_.insitu);
-    pictures_->pipeline->process({.particles = nullptr, .network = &solution_.lines});
+    pictures_->process({.particles = nullptr, .network = &solution_.lines});
   }
   finish_insitu();
 }

@@ -117,7 +117,12 @@ void find_scripts(Configuration& c, parallel::Communicator comm) {
   }
 }
 
-Pictures start_pictures(const Configuration& c, const output::ResultsFolder& results, bool goes_on,
+void Pictures::process(const insitu::Channels& channels) {
+  staging->open();
+  pipeline->process(channels);
+}
+
+Pictures start_pictures(const Configuration& c, const output::ResultsFolder& results,
                         parallel::Communicator comm, std::function<void(const std::string&)> before_abort) {
   Pictures pictures;
   if (!c.insitu.enabled) {
@@ -129,11 +134,10 @@ Pictures start_pictures(const Configuration& c, const output::ResultsFolder& res
   }
   if (!pictures.description.empty()) return pictures;
   auto staging = std::make_unique<output::StagingFolder>(results, "images", comm);
-  if (goes_on) staging->restore();
   insitu::Settings settings = settings_for(c);
   settings.image_directory = staging->path().string();
   settings.after_script = [to = staging.get()](const std::string& script, long step) {
-    to->deliver(script, step);
+    to->deliver("Catalyst script " + script, step);
   };
   settings.before_abort = std::move(before_abort);
   try {

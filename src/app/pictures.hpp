@@ -14,6 +14,10 @@
 namespace rhexis::app {
 
 struct Pictures {
+  /// Runs the scripts; their pictures become results, in images/, when they are complete. Collective; throws
+  /// as insitu::Pipeline, and RunError where a picture would replace one of the user's or of another script.
+  void process(const insitu::Channels& channels);
+
   std::unique_ptr<output::StagingFolder> staging;  ///< where scripts draw
   std::unique_ptr<insitu::Pipeline> pipeline;      ///< null: no pictures
   std::string description;                         ///< who draws, or why nobody does
@@ -29,10 +33,9 @@ struct Configuration;
 /// InputError of the key insitu.scripts. Collective.
 void find_scripts(Configuration& c, parallel::Communicator comm);
 
-/// Pictures become results, in images/, when they are complete; `goes_on`: those of an earlier run can be
-/// gone on with. `before_abort`: see insitu::Settings. Collective. Throws InputError for a script that has
-/// become bad since `find_scripts`.
-Pictures start_pictures(const Configuration& c, const output::ResultsFolder& results, bool goes_on,
+/// `before_abort`: see insitu::Settings. Collective. Throws InputError for a script that has become bad since
+/// `find_scripts`.
+Pictures start_pictures(const Configuration& c, const output::ResultsFolder& results,
                         parallel::Communicator comm, std::function<void(const std::string&)> before_abort);
 
 /// A run's particles with the steps and seconds of the runs before.

@@ -98,8 +98,7 @@ void RunBase::start_insitu() {
   const Stopwatch watch(spent_.insitu);
   pictures_ = options_.pictures;
   if (!pictures_)
-    pictures_ = std::make_shared<Pictures>(
-        start_pictures(c_, *folder_, !options_.restart.empty(), comm_, fail_records_alone));
+    pictures_ = std::make_shared<Pictures>(start_pictures(c_, *folder_, comm_, fail_records_alone));
 }
 
 void RunBase::finish_insitu() {
@@ -115,7 +114,8 @@ void RunBase::make_movie() {
   parallel::together(comm_, [&] {
     if (!comm_.is_root()) return;
     output::TemporaryFile movie(folder_->path() / "movie.mp4");
-    problem = app::make_movie(folder_->path() / "images", movie.name(), c_.output.frames_per_second);
+    problem = app::make_movie(folder_->path() / "images", folder_->files_in("images"), movie.name(),
+                              c_.output.frames_per_second);
     if (!problem.empty()) return;
     folder_->claim_on_root("movie.mp4");
     movie.put_in_place();

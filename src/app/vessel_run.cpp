@@ -200,7 +200,7 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   if (with_pictures) {
     const Stopwatch watch(spent_.insitu);
     LaterSource particles(*source_, *pictures_);
-    pictures_->pipeline->process(
+    pictures_->process(
         {.particles = &particles, .network = coupling_ != nullptr ? &coupling_->lines() : nullptr});
   }
 }

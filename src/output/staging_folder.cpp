@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -44,19 +45,13 @@ void publish(const fs::path& source, const fs::path& target) {
 StagingFolder::StagingFolder(ResultsFolder results, std::string place,
                              const parallel::Communicator& communicator)
     : results_(std::move(results)), place_(std::move(place)), communicator_(communicator) {
-  std::string name;
-  parallel::on_root<RunError>(communicator_, [&] {
-    const fs::path path = fs::absolute(temporary_name_beside(results_.path() / place_ / "staging"));
-    if (mkdir(path.c_str(), 0777) != 0)
-      throw RunError(fmt::format("{}: cannot make the folder: {}", path.string(), std::strerror(errno)));
-    name = path.string();
-  });
-  path_ = communicator_.broadcast(name);
+  path_ = communicator_.broadcast(
+      fs::absolute(temporary_name_beside(results_.path() / place_ / "staging")).string());
 }
 
 StagingFolder::~StagingFolder() {
   std::error_code ignored;
-  if (communicator_.is_root()) fs::remove_all(path_, ignored);
+  if (open_ && communicator_.is_root()) fs::remove_all(path_, ignored);
 }
 
 StagingFolder::Version StagingFolder::version_of(const fs::path& file) {
@@ -66,8 +61,11 @@ StagingFolder::Version StagingFolder::version_of(const fs::path& file) {
           status.st_mtim.tv_nsec};
 }
 
-void StagingFolder::restore() {
+void StagingFolder::open() {
+  if (std::exchange(open_, true)) return;
   parallel::on_root<RunError>(communicator_, [&] {
+    if (mkdir(path_.c_str(), 0777) != 0)
+      throw RunError(fmt::format("{}: cannot make the folder: {}", path_.string(), std::strerror(errno)));
     for (const std::string& name : results_.files_in(place_)) {
       const fs::path earlier = results_.path() / place_ / name, staged = path_ / name;
       if (!fs::is_regular_file(fs::symlink_status(earlier))) continue;
@@ -79,6 +77,7 @@ void StagingFolder::restore() {
 }
 
 void StagingFolder::deliver(const std::string& author, long step) {
+  if (!open_) return;
   parallel::on_root<RunError>(communicator_, [&] {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path_)) {
       if (fs::is_regular_file(entry.symlink_status()))

@@ -16,7 +16,7 @@ namespace rhexis::output {
 /// wrote them can read them or add to them. All calls are collective.
 class StagingFolder {
  public:
-  /// `place`: the folder that the files end up in, relative to the results folder. Throws RunError.
+  /// `place`: the folder that the files end up in, relative to the results folder. Makes nothing.
   StagingFolder(ResultsFolder results, std::string place, const parallel::Communicator& communicator);
   ~StagingFolder();
   StagingFolder(const StagingFolder&) = delete;
@@ -25,9 +25,9 @@ class StagingFolder {
   /// Absolute.
   const std::filesystem::path& path() const { return path_; }
 
-  /// Brings earlier results of that place back into the folder, for a run that goes on with them. Throws
-  /// RunError.
-  void restore();
+  /// Makes the folder, and in it what the manifest knows of its place, for a run that goes on with results of
+  /// an earlier one. After the results folder's own beginning; later calls do nothing. Throws RunError.
+  void open();
 
   /// Makes results of the files that `author` has written or changed since the last call, in subfolders too,
   /// each in one step. Throws RunError, naming the file, where one of the user's is in the way or another
@@ -53,6 +53,7 @@ class StagingFolder {
   std::string place_;
   parallel::Communicator communicator_;
   std::filesystem::path path_;
+  bool open_ = false;
   std::map<std::string, Delivered> delivered_;  ///< by name relative to the folder; on the root
 };
 

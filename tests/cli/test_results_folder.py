@@ -2,11 +2,14 @@
 
 import os
 import pathlib
+import subprocess
 import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(__file__))
-from vessel_case import GOOD, VesselCase  # noqa: E402
+from vessel_case import GOOD, RHEXIS, VesselCase  # noqa: E402
+
+PICTURES = "Catalyst" in subprocess.run([RHEXIS, "--version"], capture_output=True, text=True, check=True).stdout
 
 # 1152 particles, 10 steps.
 TINY = GOOD.replace('length = "2 mm"', 'length = "3 mm"').replace('"100 um"', '"250 um"').replace('end = "50 us"', 'end = "5 us"') + "checkpoint_every = 5\n"
@@ -129,15 +132,43 @@ class ResultsFolder(VesselCase):
         os.rename(self.results / "checkpoints/step_000005.h5", self.results / "checkpoints/step_000008.h5")
         self.assert_refused(["reads checkpoints/step_000008.h5"], "--restart", "r/checkpoints/step_000008.h5", "--overwrite")
 
-    def test_wrong_scripts_cost_no_results(self):
-        if "Catalyst" not in self.rhexis("--version").stdout:
-            self.skipTest("built without ParaView")
-        self.put("syntax.py", text="def f(:\n")
+    # -- pictures -----------------------------------------------------------------------------------------------
+
+    def run_scripts(self, *scripts, more=(), ranks=None):
+        names = []
+        for text in scripts:
+            names.append(f"script{len(names)}.py")
+            self.put(names[-1], text="fields = []\ndef catalyst_execute(info):\n    " + text)
+        return self.run_into("--set", f"insitu.scripts={names}", *more, ranks=ranks)
+
+    @unittest.skipUnless(PICTURES, "built without ParaView")
+    def test_pictures_of_the_user_and_of_other_scripts_are_not_replaced(self):
+        picture = "open(f'{image_directory}/a_{info.timestep}.png', 'w').write('ours')\n"
         for ranks in (None, 2):
-            self.assert_refused(["syntax.py, line 1"], "--set", "insitu.scripts=['syntax.py']", ranks=ranks)
-            self.assertFalse(self.results.exists())
-        self.run_well()
-        self.assert_refused(["syntax.py, line 1"], "--set", "insitu.scripts=['syntax.py']")
+            self.put("r/images/a_10.png")
+            result = self.run_scripts(picture, ranks=ranks)
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertRegex(result.stderr, "script0.py: cannot write results to r: images/a_10.png would be replaced")
+            self.assertEqual(self.contents("r/images"), {"a_0.png": b"ours", "a_10.png": b"mine"})
+            self.assertIn("images/a_10.png", self.record("r")["status"])
+            os.remove(self.results / "images/a_10.png")
+            result = self.run_scripts(picture, picture.replace("ours", "other"), ranks=ranks)
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertRegex(result.stderr, "script0.py and Catalyst script .*script1.py both write images/a_0.png at step 0")
+
+    @unittest.skipUnless(PICTURES, "built without ParaView")
+    def test_scripts_go_on_with_their_own_files(self):
+        table = ("import os\n    open(f'{image_directory}/deeper.csv', 'a').write(f'{info.timestep}\\n')\n"
+                 "    if info.timestep == 10: open(f'{image_directory}/a_1.png', 'w').write(open(f'{image_directory}/a_0.png').read())\n"
+                 "    else: open(f'{image_directory}/a_{info.timestep}.png', 'w').write('ours')\n")
+        more = ("--set", "output.every_steps=5")
+        self.assertEqual(self.run_scripts(table, more=more).returncode, 0)
+        expected = {"deeper.csv": b"0\n5\n10\n", **dict.fromkeys(["a_0.png", "a_5.png", "a_1.png"], b"ours")}
+        self.assertEqual(self.contents("r/images"), expected)
+        self.assertEqual(sorted(os.listdir(self.results / "images")), sorted(expected))
+        result = self.run_scripts(table, more=(*more, "--restart", "r/checkpoints/step_000005.h5"), ranks=2)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(self.contents("r/images"), {**expected, "deeper.csv": b"0\n5\n10\n5\n10\n"})
 
     # -- links --------------------------------------------------------------------------------------------------
 

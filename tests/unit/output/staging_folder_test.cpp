@@ -30,6 +30,10 @@ class Staging : public ::testing::Test {
     folder_.emplace(plan, world);
     folder_->remove_earlier_results();
     staging_.emplace(*folder_, "images", world);
+    EXPECT_FALSE(fs::exists(staging_->path()));
+    staging_->deliver("nobody", 0);
+    world.barrier();
+    staging_->open();
   }
 
   /// As a script of one rank does.
@@ -107,7 +111,6 @@ TEST_F(Staging, ARestartGoesOnWithItsFiles) {
   write(directory_ / "r/images/mine.png", "mine");
   staging_->deliver("a.py", 1);
   start({.directory = {}, .earlier = output::EarlierResults::keep});
-  staging_->restore();
   EXPECT_EQ(text_of(staging_->path() / "a_001.png"), "one");
   EXPECT_FALSE(fs::exists(staging_->path() / "mine.png"));
   write(staging_->path() / "deeper/table.csv", "row\n", std::ios::app);
