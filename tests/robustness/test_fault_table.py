@@ -3,6 +3,7 @@
 Run by ctest as: test_fault_table.py RHEXIS   (with /usr/bin/python3, which has h5py)
 """
 
+import csv
 import dataclasses
 import io
 import os
@@ -18,6 +19,7 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
 from coupled_case import at_once  # noqa: E402
 from study.program import changes, snapshot  # noqa: E402
+from study.results import differences, found_by  # noqa: E402
 from study.scenes import vtp_network  # noqa: E402
 
 RHEXIS = str(pathlib.Path(sys.argv[1]).resolve())
@@ -127,11 +129,58 @@ def script(*lines, channel="particles"):
     return "\n".join([f'from paraview.simple import *\nparticles = PVTrivialProducer(registrationName="{channel}")', *lines]) + "\n"
 
 
+def exported(name, file, *lines):
+    """As ParaView writes it (File, Save Catalyst State) of a reader of saved results, with a table in place of a picture."""
+    return f"""\
+from paraview.simple import *
+particlesxdmf = XDMFReader(registrationName='{name}', FileNames=['{file}'])
+particlesxdmf.PointArrayStatus = ['damage', 'displacement']
+table = CreateExtractor('CSV', particlesxdmf, registrationName='CSV1')
+table.Writer.FileName = 'table_{{timestep:06d}}.csv'
+from paraview import catalyst
+options = catalyst.Options()
+options.GlobalTrigger = 'TimeStep'
+""" + "\n".join(lines)
+
+
+EARLIER = "earlier/particles_from_000100.xdmf"
+
+
 def drawing(name, status, said, scripts, *settings):
     """A run that a script, or several, looks at."""
     names = [f"{chr(ord('a') + i)}.py" for i in range(len(scripts))]
     words = [word for setting in (f"insitu.scripts={names}".replace("'", '"'), *settings) for word in ("--set", setting)]
     return Fault(name, status, said, dict(zip(names, scripts)), command=["run", "s.toml", "-o", "out", "--quiet", *words])
+
+
+SCRIPTS = [
+    drawing("no Python", 2, ["a.py, line 1", "SyntaxError"], ["def f(:\n"]),
+    drawing("two scripts whose files have one name", 2, ["b.py", "table_", "a.py"], [exported("particles", EARLIER)] * 2),
+    drawing("a writer of volumes on points", 2, ["a.py, line 9", "VTU"],
+            [exported("particles", EARLIER, "v = CreateExtractor('VTU', particlesxdmf)", "v.Writer.FileName = 'v_{timestep:06d}.vtu'")]),
+    drawing("files outside of the images' folder", 2, ["a.py", "../../table.csv", "outside"],
+            [script("t = CreateExtractor('CSV', particles)", "t.Writer.FileName = '../../table.csv'")]),
+    drawing("a name that is none", 3, ["a.py, line 3", "Shwo"], [script("Shwo(particles)")]),
+    drawing("a field that is none", 3, ["a.py", "Damage", "damage"], [script("ColorBy(Show(particles, CreateRenderView()), ('POINTS', 'Damage'))")]),
+    drawing("no end", 3, ["a.py", "insitu.time_limit"],
+            [script("def catalyst_execute(info):", "    while True: pass")], "insitu.time_limit=2 s"),
+    drawing("an end of its own", 3, ["a.py, line 5", "os._exit"], [script("import os", "def catalyst_execute(info):", "    os._exit(0)")]),
+    drawing("another working folder", 3, ["a.py", "working folder"], [script("import os", "def catalyst_execute(info):", "    os.chdir('/')")]),
+]
+# Readers of what earlier runs saved, under whatever name: they show this run.
+EXPORTED = [exported(name, file) for name, file in (
+    ("particles", EARLIER), ("particles_from_000100.xdmf", EARLIER), ("vessel_run7.xdmf", EARLIER), ("vessel_run7.xdmf", "/nowhere/particles.xdmf"))]
+# Writes into the data that it is lent, and takes them away.
+MUTATES = script("""
+def catalyst_execute(info):
+    data = particles.GetClientSideObject().GetOutputDataObject(0)
+    damage, points = data.GetPointData().GetArray("damage"), data.GetPoints().GetData()
+    for i in range(damage.GetNumberOfTuples()):
+        damage.SetComponent(i, 0, 7.0)
+        points.SetComponent(i, 0, 1e9)
+    data.GetPointData().Initialize()
+    data.SetPoints(None)
+""")
 
 
 class FaultTable(unittest.TestCase):
@@ -179,6 +228,10 @@ class FaultTable(unittest.TestCase):
     def test_folders(self):
         self.check_all(FOLDERS)
 
+    def test_scripts(self):
+        self.needs_pictures()
+        self.check_all(SCRIPTS)
+
     def test_earlier_results_stay_until_scripts_compile(self):
         self.needs_pictures()
         fault = drawing("", 2, ["SyntaxError"], ["def f(:\n"])
@@ -187,6 +240,39 @@ class FaultTable(unittest.TestCase):
         before = snapshot(folder)
         self.assertEqual(self.rhexis(folder, fault.command).returncode, 2)
         self.assertEqual(changes(before, snapshot(folder)), [])
+
+    def test_exported_scripts_show_this_run(self):
+        """Tables of four scripts, whose readers name results of another run, are those of one that asks for the channel."""
+        self.needs_pictures()
+        live = script("table = CreateExtractor('CSV', particles)", "table.Writer.FileName = 'live_{timestep:06d}.csv'")
+        others = [text.replace("table_", f"other_{i}_") for i, text in enumerate(EXPORTED)]
+        fault = drawing("", 0, [], [live, *others])
+        folder = self.prepare(fault, "shown")
+        earlier = self.rhexis(folder, ["run", "s.toml", "-o", "earlier", "--quiet", "--set", "load.pressure=50 kPa", "--set",
+                                       "output.checkpoint_every=0"])
+        self.assertEqual(earlier.returncode, 0, earlier.stderr)
+        for ending in ("h5", "xdmf"):
+            os.rename(folder / f"earlier/particles.{ending}", folder / f"earlier/particles_from_000100.{ending}")
+        result = self.rhexis(folder, fault.command)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+        def displacements(name):
+            with open(folder / f"out/images/{name}_000020.csv", encoding="utf-8") as file:
+                return [row["displacement:0"] for row in csv.DictReader(file)]
+
+        expected = displacements("live")
+        self.assertGreater(len(set(expected)), 100)
+        for i, text in enumerate(EXPORTED):
+            self.assertEqual(displacements(f"other_{i}"), expected, text)
+
+    def test_scripts_do_not_change_results(self):
+        self.needs_pictures()
+        fault = drawing("", 0, [], [MUTATES])
+        folder = self.prepare(fault, "mutated")
+        self.assertEqual(self.rhexis(folder, ["run", "s.toml", "-o", "alone", "--quiet"]).returncode, 0)
+        self.rhexis(folder, fault.command)
+        alone, mutated = found_by(folder / "alone"), found_by(folder / "out")
+        self.assertEqual(differences(alone, mutated), [])
 
     def needs_pictures(self):
         if "Catalyst" not in self.rhexis(self.path, ["--version"]).stdout:

@@ -4,7 +4,7 @@ one of which a refusal must tell; none where nobody can say."""
 import h5py
 import numpy
 
-NUMBERS_OF_A_CHECKPOINT = "its numbers"  # attributes have one checksum together
+OF_ATTRIBUTES = ("its numbers", "not a checkpoint")  # they have one checksum together; one says what the file is
 NUMBERS = (0, -1, 1, 2, -4_600_000_000_000_000_000, 2**31, 2**62, -(2**63))
 REALS = (float("nan"), float("inf"), -float("inf"), 1e308, -1e308, 5e-324, 0.0, -1.0, 1.0, 1e-9, 1e9)
 
@@ -97,7 +97,7 @@ def remove_attribute(random, path):
     with h5py.File(path, "r+") as file:
         place, name = random.choice(attributes(file))
         del file[place].attrs[name]
-        return [name, NUMBERS_OF_A_CHECKPOINT]
+        return [name, *OF_ATTRIBUTES]
 
 
 def attributes(file):
@@ -112,7 +112,7 @@ def replace_attribute(random, path):
                              numpy.array([], "f8"), numpy.float32(1)))
         del file[place].attrs[name]
         file[place].attrs[name] = new
-        return [name, NUMBERS_OF_A_CHECKPOINT]
+        return [name, *OF_ATTRIBUTES]
 
 
 def change_text(random, path):
