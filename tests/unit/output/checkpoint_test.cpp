@@ -298,8 +298,9 @@ TEST(Checkpoint, AnotherFormatIsToldWithItsWriter) {
       message("rhexis checkpoint 4", ""),
       ": a checkpoint of format 4, which an earlier version of Rhexis wrote; this one reads format 5 alone: "
       "go on with that version, or start anew");
-  EXPECT_EQ(message("rhexis checkpoint 6", "9.8.7").substr(0, 65),
-            ": a checkpoint of format 6, which version 9.8.7 of Rhexis wrote; t");
+  EXPECT_NE(message("rhexis checkpoint 6", "9.8.7")
+                .find("a checkpoint of format 6, which version 9.8.7 of Rhexis wrote"),
+            std::string::npos);
   EXPECT_EQ(message("something else", ""),
             ": not a checkpoint of Rhexis: its attribute 'format' is missing or says something else");
 }
