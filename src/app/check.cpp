@@ -9,12 +9,13 @@
 #include "app/network_coupling.hpp"
 #include "app/run_base.hpp"
 #include "app/stopwatch.hpp"
+#include "core/error.hpp"
 #include "core/format.hpp"
+#include "parallel/together.hpp"
 #include "peridynamics/body.hpp"
-#include "peridynamics/bond_kernel.hpp"
 #include "peridynamics/elastic_error.hpp"
 #include "peridynamics/linear_limit.hpp"
-#include "peridynamics/materials/with_law.hpp"
+#include "peridynamics/schedule.hpp"
 #include "peridynamics/strength.hpp"
 #include "peridynamics/surface_correction.hpp"
 
@@ -25,15 +26,14 @@ using peridynamics::BondFamilies;
 using peridynamics::Lattice;
 
 /// Seconds one step of the whole body takes on these ranks, from a few steps of a short piece of it.
-double seconds_per_step(const Configuration& c, const Lattice& lattice, const BondFamilies& families,
-                        parallel::Communicator comm) {
+double seconds_per_step(const Configuration& c, const Lattice& lattice, parallel::Communicator comm) {
   constexpr int timed_steps = 10;
   Lattice piece = lattice;
   piece.rows = std::min<std::int64_t>(lattice.rows, 64L * comm.size());
   peridynamics::Parameters parameters = c.vessel;
   parameters.ends = "free";
   const auto body =
-      peridynamics::make_body(peridynamics::make_setup(parameters, piece, families, c.time_step), comm);
+      peridynamics::make_body(peridynamics::make_setup(parameters, piece, c.families, c.time_step), comm);
   body->advance(0, 0);  // warms caches and pages
   const double start = seconds_now();
   for (int i = 0; i < timed_steps; ++i) body->advance(0, 0);
@@ -42,37 +42,16 @@ double seconds_per_step(const Configuration& c, const Lattice& lattice, const Bo
          static_cast<double>(piece.rows);
 }
 
-/// Bytes that the wall takes: state, what bonds read, bond bits, and fields while they are observed and
-/// written; the copy that a checkpoint is made of.
-double body_bytes(const Configuration& c, const Lattice& lattice, const BondFamilies& families, int ranks) {
-  const double real = c.vessel.bond_precision == "double" ? sizeof(double) : sizeof(float);
-  const auto particles = static_cast<double>(lattice.particles());
-  const double blocks = static_cast<double>((lattice.rows + 15) / 16);
-  const double local = peridynamics::Heterogeneity(c.vessel).uniform() ? 0 : 2 * real;
-  const double dilatation = peridynamics::with_law(
-      c.vessel.law, [&]<class Law>(const Law&) { return Law::state_based ? real + sizeof(double) : 0.0; });
-  const double sums = 4 * real + sizeof(double);  // of force and energy; family volumes
-  const double state = particles * (6 * sizeof(double) + 6 * real + sums + local + dilatation);
-  const double bits = static_cast<double>(families.bonds.size()) * blocks * sizeof(std::uint16_t);
-  // Families of all columns on every rank, and the kernel's tables of them once.
-  const double tables =
-      static_cast<double>(families.bonds.size()) *
-      (ranks * static_cast<double>(sizeof(peridynamics::Bond)) + 10 * real + 2 * sizeof(std::int32_t));
-  const double observed = particles * (8 + 3 + 3) * sizeof(double);
-  const double checkpoint = c.output.checkpoint_every > 0 ? particles * 6 * sizeof(double) + bits : 0;
-  return state + bits + tables + observed + checkpoint;
-}
-
 /// `say_more`: what else there is to say of the vessel.
 void check_wall(const Configuration& c, parallel::Communicator comm,
                 const std::function<void(Console&)>& say_more) {
   const Lattice lattice = peridynamics::make_lattice(c.vessel);
-  const BondFamilies families = peridynamics::make_families(c.vessel, lattice);
+  const BondFamilies& families = *c.families;
   const bool periodic = peridynamics::end_condition(c.vessel) == peridynamics::EndCondition::axial_periodic;
   // A sample of an ensemble belongs to one rank, while the others have theirs.
-  const double step = comm.all_reduce(
-      seconds_per_step(c, lattice, families, c.is_ensemble() ? parallel::Communicator::self() : comm),
-      parallel::Reduce::max);
+  const double step =
+      comm.all_reduce(seconds_per_step(c, lattice, c.is_ensemble() ? parallel::Communicator::self() : comm),
+                      parallel::Reduce::max);
 
   Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
@@ -84,7 +63,7 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
                                           quantity(lattice.row_spacing, "m")));
   console.item("horizon", quantity(lattice.horizon, "m") +
                               fmt::format(" ({:.4g} spacings)", lattice.horizon / lattice.spacing));
-  const peridynamics::BodySetup setup = peridynamics::make_setup(c.vessel, lattice, families, c.time_step);
+  const peridynamics::BodySetup setup = peridynamics::make_setup(c.vessel, lattice, c.families, c.time_step);
   const std::int64_t absent = setup.thin_spots.absent();
   console.item(
       "particles",
@@ -94,25 +73,33 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   console.item("bonds", fmt::format("{}{}, at most {} a particle", absent > 0 ? "fewer than " : "",
                                     grouped(peridynamics::count_bonds(lattice, families, periodic)),
                                     peridynamics::largest_family(lattice, families, periodic)));
-  const peridynamics::ElasticError error = peridynamics::elastic_error(c.vessel, setup);
+  // On one rank: on each they would take memory of their own.
+  peridynamics::ElasticError error{};
+  double limit = 0;
+  parallel::on_root<RunError>(comm, [&] {
+    error = peridynamics::elastic_error(c.vessel, setup);
+    limit = peridynamics::linear_time_step_limit(setup);
+  });
   console.item("accuracy",
                fmt::format("{:.2g} % off Lame's static expansion, evenly over the wall to {:.2g} % "
                            "(surface correction {}, layer {})",
                            100 * error.relative_l2, 100 * error.spread,
                            peridynamics::surface_correction(c.vessel), c.vessel.layer));
   console.item("strength", peridynamics::describe_strength(c.vessel));
-  if (c.model == "vessel") say_risk(console, c.vessel);
+  if (c.model == "vessel") {
+    console.item("load", fmt::format("{} ({})", quantity(peridynamics::highest_pressure(c.vessel), "Pa"),
+                                     peridynamics::describe_schedule(c.vessel)));
+    say_risk(console, c.vessel);
+  }
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
                                         quantity(c.stable_time_step, "s"), grouped(c.steps)));
-  const double limit = peridynamics::linear_time_step_limit(setup);
   console.item("instability",
                fmt::format("begins at {} where strains are small, {:.2f} times the stable step",
                            quantity(limit, "s"), limit / c.stable_time_step));
   const std::string processors =
       fmt::format("{} rank{} x {} thread{}", comm.size(), comm.size() > 1 ? "s" : "",
                   parallel::thread_count(), parallel::thread_count() > 1 ? "s" : "");
-  const double bytes = body_bytes(c, lattice, families, c.is_ensemble() ? 1 : comm.size());
   if (c.is_ensemble()) {
     const ensemble::Parameters& e = c.ensemble;
     console.item("pressures", fmt::format("{} from {} to {}", e.pressures.size(), mmhg(e.pressures.front()),
@@ -120,7 +107,6 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
     console.item("samples",
                  fmt::format("{} = {} walls x {} pressures; the numbers above are of the mean wall",
                              grouped(e.vessels()), e.samples, e.pressures.size()));
-    console.item("memory", fmt::format("about {:.0f} MB for the wall, on each rank", bytes / 1e6));
     const double sample = step * static_cast<double>(c.steps);
     const auto rounds = (e.vessels() + comm.size() - 1) / comm.size();
     console.item("time",
@@ -130,7 +116,6 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
     return;
   }
   console.item("outputs", grouped(static_cast<long long>(c.output_steps.size())));
-  console.item("memory", fmt::format("about {:.0f} MB for the wall, all ranks together", bytes / 1e6));
   console.item("time",
                fmt::format("about {} of solving on {} (measured now; output and pictures come on top)",
                            duration(step * static_cast<double>(c.steps)), processors));

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
+#include "app/console.hpp"
 #include "app/coupled_run.hpp"
 #include "app/ensemble_run.hpp"
 #include "app/folder_plan.hpp"
@@ -18,6 +20,7 @@
 #include "app/vessel_run.hpp"
 #include "input/keys.hpp"
 #include "output/unfinished_run.hpp"
+#include "parallel/node.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -77,19 +80,21 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   CLI::App* check =
       cli.add_subcommand("check", "Validate an input file; print derived numbers and the expected cost");
   CLI::App* keys = cli.add_subcommand("keys", "Explain every key of input files");
-  const auto not_empty = [](const std::string& text) {
-    return std::string(text.empty() ? "the name is empty" : "");
+  const auto a_name = [](const std::string& text) {
+    const bool control = std::ranges::any_of(text, [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+    return std::string(text.empty() ? "the name is empty"
+                       : control    ? "the name has a control character"
+                                    : "");
   };
   for (CLI::App* sub : {run, check}) {
-    sub->add_option("FILE", command.file, "Input file (TOML)")->required();
+    sub->add_option("FILE", command.file, "Input file (TOML)")->required()->check(a_name);
     sub->add_option("-o,--output", command.directory, "Folder for results; default results/<name of FILE>")
-        ->check(not_empty);
+        ->check(a_name);
     sub->add_option("--set", command.overrides, "Replace or add a key, e.g. --set load.pressure='200 kPa'")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
   }
-  run->add_option("--restart", command.restart, "Go on from a checkpoint of an earlier run")
-      ->check(not_empty);
+  run->add_option("--restart", command.restart, "Go on from a checkpoint of an earlier run")->check(a_name);
   run->add_flag("--overwrite", command.overwrite,
                 "Replace files in the folder for results that no run made (never one that this run reads)");
   run->add_flag("--quiet", command.quiet, "Print errors only");
@@ -120,7 +125,14 @@ int carry_out(const Command& command, parallel::Communicator comm) {
     return told(comm);
   }
   const double started = seconds_now();
-  Configuration configuration = read_configuration(command.file, command.overrides, comm);
+  Console console(comm.is_root(), command.quiet);
+  if (const std::string& notice = parallel::threads_notice(); !notice.empty()) console.warning(notice);
+  Configuration input;
+  input.checks = command.action == Action::check;
+  input.say = [&](const std::string& label, const std::string& text) {
+    label.empty() ? console.line(text) : console.item(label, text);
+  };
+  Configuration configuration = read_configuration(command.file, command.overrides, comm, std::move(input));
   RunOptions options;
   options.directory = command.directory.empty()
                           ? std::filesystem::path("results") / std::filesystem::path(command.file).stem()
@@ -136,7 +148,6 @@ int carry_out(const Command& command, parallel::Communicator comm) {
                                        configuration.no_pictures);
     output::refuse_obstacles(folder_plan(configuration, options), comm);
     check(configuration, comm);
-    Console console(comm.is_root(), false);
     for (const std::string& text : unfinished_runs(options, comm)) console.item("results", text);
     return told(comm);
   }

@@ -11,18 +11,23 @@
 #include "app/pictures.hpp"
 #include "app/scene_keys.hpp"
 #include "app/version.hpp"
+#include "app/wall_memory.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/memory.hpp"
+#include "core/text_file.hpp"
 #include "ensemble/walls.hpp"
 #include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "input/units.hpp"
+#include "input/wording.hpp"
 #include "network/network_file.hpp"
 #include "network/vtp_network.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/pressure_layer.hpp"
 #include "peridynamics/schedule.hpp"
+#include "peridynamics/schedule_table.hpp"
 #include "peridynamics/strength.hpp"
 #include "peridynamics/surface_correction.hpp"
 #include "peridynamics/thin_spots.hpp"
@@ -70,8 +75,8 @@ void settle_time_step(Configuration& c) {
     c.warnings.push_back(
         "spot.thickness has no effect: a wall is thinned by whole particles, and none lies "
         "outside of what is left; take a smaller discretisation.spacing");
-  const peridynamics::TimeSteps time =
-      peridynamics::time_steps(c.vessel, lattice, peridynamics::make_families(c.vessel, lattice));
+  c.families = peridynamics::shared_families(c.vessel, lattice);
+  const peridynamics::TimeSteps time = peridynamics::time_steps(c.vessel, lattice, c.families);
   c.stable_time_step = time.stable;
   c.time_step = time.step;
   c.steps = time.count;
@@ -92,21 +97,49 @@ void find_files(std::vector<std::string>& files, const std::string& key, const s
     parallel::on_root<InputError>(comm, [&] {
       const fs::path beside = fs::path(input_file).parent_path() / file;
       for (const fs::path& path : {fs::path(file), beside}) {
-        if (found.empty() && fs::exists(path)) found = fs::canonical(path).string();
+        std::error_code no;  // a name may be too long, or a folder closed
+        if (found.empty() && fs::exists(path, no)) found = fs::canonical(path).string();
       }
       if (!found.empty()) return;
-      const std::string here = fs::absolute(file).lexically_normal().string(),
-                        there = fs::absolute(beside).lexically_normal().string();
+      const auto shown = [](const fs::path& path) {
+        constexpr std::size_t longest = 400;
+        const std::string text = fs::absolute(path).lexically_normal().string();
+        return text.size() <= longest ? text : input::shortened(text);
+      };
+      const std::string here = shown(file), there = shown(beside);
       throw InputError("there is no " + what + " " + here + (there == here ? "" : " or " + there), key);
     });
     file = comm.broadcast(found);
   }
 }
 
-void resolve_vessel(Configuration& c) {
+/// Reads load.table_file, where there is one, into load.table.
+void read_table(Configuration& c, parallel::Communicator comm) {
+  peridynamics::Parameters& v = c.vessel;
+  if (v.table_file.empty()) return;
+  if (!v.table.empty())
+    throw InputError("give either load.table or load.table_file, not both", "load.table_file");
+  std::vector<std::string> files{v.table_file};
+  find_files(files, "load.table_file", "table", c.file, comm);
+  v.table_file = files.front();
+  check_key("load.table_file", [&] {
+    std::string text;
+    constexpr std::uintmax_t most = 1'000'000'000;
+    parallel::on_root<InputError>(comm,
+                                  [&] { text = whole_file(v.table_file, most, ", too much for a table"); });
+    text = comm.broadcast(text);
+    c.table_checksum = peridynamics::checksum(text);
+    parallel::together<InputError>(
+        comm, [&] { v.table = peridynamics::schedule_table(v.table_file, std::move(text), input::to_si); });
+  });
+}
+
+void resolve_vessel(Configuration& c, parallel::Communicator comm) {
   const auto warnings = peridynamics::resolve(c.vessel);
   c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
-  settle_time_step(c);
+  settle_memory(c, comm);
+  parallel::together(
+      comm, [&] { within_memory("the wall", "discretisation.spacing", [&] { settle_time_step(c); }); });
   if (c.is_ensemble()) return;
   if (c.output.fields.empty()) no_effect(c, "output.precision", "without output.fields");
   if (c.output.fields.empty() && !c.is_coupled()) no_effect(c, "output.format", "without output.fields");
@@ -134,9 +167,9 @@ void warn_of_an_unfinished_ramp(Configuration& c) {
                          " % of each pressure at most; shorten load.ramp_time, or end later");
 }
 
-void resolve_ensemble(Configuration& c) {
+void resolve_ensemble(Configuration& c, parallel::Communicator comm) {
   ensemble::resolve(c.ensemble);
-  resolve_vessel(c);  // the mean one
+  resolve_vessel(c, comm);  // the mean one
   const auto warnings = ensemble::check_walls(c.ensemble, c.vessel);
   c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
   warn_of_an_unfinished_ramp(c);
@@ -273,9 +306,9 @@ void warn_of_a_load_beyond_all(Configuration& c) {
 
 }  // namespace
 
-void resolve_wall(Configuration& c) {
+void resolve_wall(Configuration& c, parallel::Communicator comm) {
   try {
-    resolve_vessel(c);
+    resolve_vessel(c, comm);
   } catch (const InputError& error) {
     if (!c.is_coupled() || !network_knows(error.key)) throw input::located(error, c.resolved);
     const peridynamics::Parameters& v = c.vessel;
@@ -295,8 +328,7 @@ std::optional<double> risk_of_load(const peridynamics::Parameters& v) {
 }
 
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
-                                 parallel::Communicator comm) {
-  Configuration c;
+                                 parallel::Communicator comm, Configuration c) {
   c.file = file;
   const std::string text = read_on_root(file, comm);
   parallel::together(comm, [&] {  // a rank may lack the database of units
@@ -306,10 +338,11 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
   });
   try {
     if (c.model == "vessel") {
-      resolve_vessel(c);
+      read_table(c, comm);
+      resolve_vessel(c, comm);
       warn_of_a_load_beyond_all(c);
     } else if (c.is_ensemble()) {
-      resolve_ensemble(c);
+      resolve_ensemble(c, comm);
     } else {
       resolve_network(c, comm);
       if (c.is_coupled()) resolve_coupling(c);
@@ -321,6 +354,7 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
     throw input::located(error, c.resolved);
   }
   c.record = input::to_json(c.resolved);
+  if (!c.table_checksum.empty()) c.record["load"]["table_file"]["checksum"] = c.table_checksum;
   return c;
 }
 

@@ -1,6 +1,7 @@
 /// The whole input of a run, typed: what the reader fills and the rest of the program builds from.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@
 #include "network/parameters.hpp"
 #include "output/parameters.hpp"
 #include "parallel/communicator.hpp"
+#include "peridynamics/bond_family.hpp"
+#include "peridynamics/memory.hpp"
 #include "peridynamics/parameters.hpp"
 #include "screening/parameters.hpp"
 
@@ -45,31 +48,43 @@ struct Configuration {
   bool is_coupled() const { return model == "coupled"; }
   bool is_ensemble() const { return model == "ensemble"; }
 
+  /// What a wall is made of and takes, before it is made; families as made once for all uses of the wall.
+  peridynamics::WallSize wall_size;
+  peridynamics::WallMemory wall_memory;  ///< of all ranks together; of an ensemble, on each rank
+  peridynamics::SharedFamilies families;
+
   double stable_time_step = 0;  ///< s
   double time_step = 0;         ///< s
   long steps = 0;
   std::vector<long> output_steps;
+  std::string table_checksum;  ///< of load.table_file; empty: none was read
   std::vector<std::string> warnings;
   std::string no_pictures;        ///< why there can be none, where scripts are named; else empty
   input::Resolved resolved;       ///< for messages about values that do not fit together
   nlohmann::ordered_json record;  ///< as resolved, for run.json
+
+  bool checks = false;  ///< `rhexis check`, and no run
+  /// Tells the user, at the terminal, of what takes a while or is to be known before it is done; may be
+  /// empty. A label and a text as Console::item has them, or no label.
+  std::function<void(const std::string& label, const std::string& text)> say;
 };
 
 /// Every key there is, bound to `c`.
 ParameterList declare(Configuration& c);
 
 /// Settles what follows from a vessel's values. Where the scene is coupled, its geometry comes from the
-/// network, so this has to wait for that. Throws InputError, complete with place.
-void resolve_wall(Configuration& c);
+/// network, so this has to wait for that. Throws InputError, complete with place. Collective.
+void resolve_wall(Configuration& c, parallel::Communicator comm);
 
 /// The risk (screening/screening.hpp) of a wall without spots or scatter under its schedule's highest
 /// pressure; none of a wall that stiffens.
 std::optional<double> risk_of_load(const peridynamics::Parameters& vessel);
 
-/// Reads and validates `file` with `overrides`, and settles what follows from them: time step and plan of
-/// output, or the rules of a tree. Only the sections of the scene's model are read; any other is an error.
-/// Collective: one rank reads, all get the same configuration or the same InputError.
+/// Reads and validates `file` with `overrides` into `c`, where `say` and `checks` may be set, and settles
+/// what follows from them: time step and plan of output, or the rules of a tree. Only the sections of the
+/// scene's model are read; any other is an error. Collective: one rank reads, all get the same configuration
+/// or the same InputError.
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
-                                 parallel::Communicator comm);
+                                 parallel::Communicator comm, Configuration c = {});
 
 }  // namespace rhexis::app

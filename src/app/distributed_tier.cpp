@@ -11,6 +11,7 @@
 #include "app/network_tier.hpp"
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
+#include "core/memory.hpp"
 #include "hemodynamics/distributed_flow.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/together.hpp"
@@ -30,12 +31,10 @@ class DistributedTier : public NetworkTier {
   }
 
   void prepare() override {
+    const bool of_tree = c_.network.source == "tree";
     parallel::together<InputError>(comm_, [&] {
-      if (c_.network.source == "tree") {
-        take_tree_part();
-      } else {
-        take_slice_of_file();
-      }
+      within_memory("a rank's share of the network", of_tree ? "tree.generations" : "network.files",
+                    [&] { of_tree ? take_tree_part() : take_slice_of_file(); });
     });
     mechanics_.numbers = vessel_id_;
   }

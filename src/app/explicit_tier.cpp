@@ -11,6 +11,7 @@
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/memory.hpp"
 #include "coupling/injured_graph.hpp"
 #include "hemodynamics/graph_flow.hpp"
 #include "hemodynamics/haematocrit.hpp"
@@ -43,10 +44,12 @@ class ExplicitTier : public NetworkTier {
   void prepare() override {
     parallel::on_root<InputError>(comm_, [&] {
       const Stopwatch watch(making_);
-      network_ = make_graph_network(c_, mechanics_.hydrostatic);
-      // A tree is connected by its making.
-      if (c_.network.source == "file")
-        hemodynamics::check_flow_problem(network_.graph, network_.conditions, solver_options(c_));
+      within_memory("the network", c_.network.source == "file" ? "network.files" : "tree.generations", [&] {
+        network_ = make_graph_network(c_, mechanics_.hydrostatic);
+        // A tree is connected by its making.
+        if (c_.network.source == "file")
+          hemodynamics::check_flow_problem(network_.graph, network_.conditions, solver_options(c_));
+      });
       for (const std::string& name : c_.network.query) {
         const bool coupled = c_.is_coupled() && name == c_.coupling.vessel;
         queried_.push_back(

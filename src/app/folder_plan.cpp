@@ -63,6 +63,7 @@ output::FolderPlan folder_plan(const Configuration& c, const RunOptions& options
   output::FolderPlan plan{.directory = options.directory, .overwrite = options.overwrite};
   plan.reads = {c.file};
   plan.reads.insert(plan.reads.end(), c.network.files.begin(), c.network.files.end());
+  if (!c.vessel.table_file.empty()) plan.reads.push_back(c.vessel.table_file);
   plan.reads.insert(plan.reads.end(), c.insitu.scripts.begin(), c.insitu.scripts.end());
   const bool restarts = !options.restart.empty();
   if (restarts) {

@@ -79,15 +79,18 @@ std::string make_movie(const std::filesystem::path& images, const std::vector<st
   const auto& [name, series] = *longest;
   if (series.pictures < 2) return "there is one picture only";
   std::vector<std::string> command{"ffmpeg", "-nostdin", "-y", "-loglevel", "error"};
+  // From the root: a path that begins with a dash would be an option, and one with a colon a protocol.
+  const std::filesystem::path pictures = std::filesystem::absolute(images / name);
   for (const std::size_t digits : series.digits) {  // ffmpeg sorts names as text
-    const std::string pattern = literally((images / name).string()) + '_' + std::string(digits, '?') + ".png";
+    const std::string pattern = literally(pictures.string()) + '_' + std::string(digits, '?') + ".png";
     command.insert(command.end(), {"-framerate", fmt::format("{}", frames_per_second), "-pattern_type",
                                    "glob", "-i", pattern});
   }
   command.insert(
       command.end(),
       {"-filter_complex", fmt::format("concat=n={},pad=ceil(iw/2)*2:ceil(ih/2)*2", series.digits.size()),
-       "-c:v", "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-f", "mp4", movie.string()});
+       "-c:v", "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-f", "mp4",
+       std::filesystem::absolute(movie).string()});
   const int status = run_program(std::move(command));
   if (status == 127 || status == -1) return "ffmpeg could not be started; is it installed?";
   if (status != 0) return fmt::format("ffmpeg failed with status {}", status);

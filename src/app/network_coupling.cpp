@@ -71,7 +71,7 @@ const Configuration& NetworkCoupling::hand_over() {
     throw input::located(error, c_.resolved);
   }
   c_.vessel.pressure = pressure();
-  resolve_wall(c_);
+  resolve_wall(c_, comm_);
   warn_of_a_short_piece();
   const double steps =
       c_.coupling.window.value_or(std::max(c_.vessel.end_time / 200, c_.time_step)) / c_.time_step;

@@ -7,9 +7,10 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/memory.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "network/tree_pair.hpp"
-#include "output/machine.hpp"
+#include "parallel/node.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::app {
@@ -29,23 +30,30 @@ bool is_built_tree(const Configuration& c) {
 }
 
 /// Throws InputError where a rank's share of a tree's vessels cannot be numbered, or held in memory.
-void check_size(const Configuration& c, int ranks) {
-  const double vessels = static_cast<double>(network::TreePair::vessels_of(c.tree.generations)) /
-                         (c.network.tier == "distributed" ? ranks : 1);
-  const double bytes = vessels * bytes_per_vessel, memory = output::physical_memory_bytes();
-  if (vessels < 0x1p31 && bytes < memory) return;
-  const char* more = c.network.tier == "distributed" ? "take more ranks, or" : "take";
-  throw InputError(fmt::format("this tree takes some {:.3g} GB on a rank, and this machine has {:.3g} GB; {} "
-                               "\"implicit\"",
-                               1e-9 * bytes, 1e-9 * memory, more),
-                   "network.tier");
+/// `ranks_here`: that share the memory of this machine.
+void check_size(const Configuration& c, int ranks, int ranks_here) {
+  const bool distributed = c.network.tier == "distributed";
+  const double vessels =
+      static_cast<double>(network::TreePair::vessels_of(c.tree.generations)) / (distributed ? ranks : 1);
+  const MemoryLimit memory = available_memory();
+  const int sharing = distributed && memory.of_machine ? ranks_here : 1;
+  const double bytes = vessels * bytes_per_vessel;
+  if (vessels < 0x1p31 && sharing * bytes < memory.bytes) return;
+  throw InputError(
+      fmt::format("this tree takes some {:.3g} GB on a rank{}, and {:.3g} GB is left by {}; {} \"implicit\"",
+                  1e-9 * bytes, sharing > 1 ? fmt::format(", {} of them here", sharing) : "",
+                  1e-9 * memory.bytes, memory.source, distributed ? "take more ranks, or" : "take"),
+      "network.tier");
 }
 
 std::unique_ptr<NetworkTier> made_tier(const Configuration& c, parallel::Communicator comm,
                                        bool trees_are_built) {
   auto tier = make_tier(c, comm);
   try {
-    if (is_built_tree(c)) parallel::together<InputError>(comm, [&] { check_size(c, comm.size()); });
+    if (is_built_tree(c)) {
+      const int ranks_here = parallel::ranks_of_node(comm);
+      parallel::together<InputError>(comm, [&] { check_size(c, comm.size(), ranks_here); });
+    }
     if (trees_are_built || !is_built_tree(c)) tier->prepare();
   } catch (const InputError& error) {
     throw input::located(error, c.resolved);

@@ -62,8 +62,9 @@ ParameterList declare_coupled(Configuration& c) {
 /// each, and are simulated to the onset of rupture, before any venting and without output.
 bool ensemble_settles(const std::string& key) {
   return input::section_of(key) == "output" || key == "load.pressure" || key == "load.table" ||
-         key == "load.venting" || key == "load.supply_area" || key == "load.discharge_coefficient" ||
-         key == "load.blood_density" || key == "time.step" || key == "time.allow_unstable";
+         key == "load.table_file" || key == "load.repeat" || key == "load.venting" ||
+         key == "load.supply_area" || key == "load.discharge_coefficient" || key == "load.blood_density" ||
+         key == "time.step" || key == "time.allow_unstable";
 }
 
 ParameterList declare_ensemble(Configuration& c) {
@@ -147,7 +148,7 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
 
 bool network_knows(const std::string& key) {
   return input::section_of(key) == "vessel" || key == "load.pressure" || key == "load.table" ||
-         key == "load.blood_density";
+         key == "load.table_file" || key == "load.repeat" || key == "load.blood_density";
 }
 
 }  // namespace rhexis::app

@@ -50,7 +50,7 @@ void VesselRun::say_header() {
                                     quantity(c_.stable_time_step, "s")));
   console_.item(
       "load", fmt::format("{} ({}), layer {}, venting {}", quantity(peridynamics::highest_pressure(v), "Pa"),
-                          v.schedule, v.layer, v.venting));
+                          peridynamics::describe_schedule(v), v.layer, v.venting));
   if (coupling_ != nullptr) {
     coupling_->say_header(console_);
   } else {

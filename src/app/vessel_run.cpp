@@ -15,7 +15,6 @@
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "peridynamics/schedule.hpp"
-#include "peridynamics/surface_correction.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -82,14 +81,12 @@ Ending VesselRun::run() {
 
 void VesselRun::build() {
   lattice_ = peridynamics::make_lattice(c_.vessel);
-  peridynamics::BondFamilies families = peridynamics::make_families(c_.vessel, lattice_);
   const peridynamics::EndCondition ends = peridynamics::end_condition(c_.vessel);
   const bool periodic = ends == peridynamics::EndCondition::axial_periodic;
-  results_.family_max = peridynamics::largest_family(lattice_, families, periodic);
+  results_.family_max = peridynamics::largest_family(lattice_, *c_.families, periodic);
   results_.time_step_s = c_.time_step;
   results_.stable_time_step_s = c_.stable_time_step;
-  peridynamics::BodySetup setup =
-      peridynamics::make_setup(c_.vessel, lattice_, std::move(families), c_.time_step);
+  peridynamics::BodySetup setup = peridynamics::make_setup(c_.vessel, lattice_, c_.families, c_.time_step);
   const peridynamics::ThinSpots thin_spots = setup.thin_spots;
   body_ = peridynamics::make_body(std::move(setup), comm_);
   results_.particles = lattice_.particles() - thin_spots.absent();

@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "peridynamics/equilibrium.hpp"
-#include "peridynamics/surface_correction.hpp"
 
 namespace rhexis::app {
 
@@ -17,9 +16,9 @@ namespace rhexis::app {
 void VesselRun::start_at_equilibrium() {
   const peridynamics::Parameters& v = c_.vessel;
   const Stopwatch watch(spent_.solve);
-  peridynamics::Equilibrium found = peridynamics::find_equilibrium(
-      peridynamics::make_setup(v, lattice_, peridynamics::make_families(v, lattice_), c_.time_step),
-      v.equilibrium_pressure, v.equilibrium_tolerance, comm_);
+  peridynamics::Equilibrium found =
+      peridynamics::find_equilibrium(peridynamics::make_setup(v, lattice_, c_.families, c_.time_step),
+                                     v.equilibrium_pressure, v.equilibrium_tolerance, comm_);
   start_bond_evaluations_ = found.bond_evaluations;
 
   std::array<std::vector<double>, 3> at_rest;

@@ -23,11 +23,10 @@ std::optional<Sample> simulate(const Parameters& p, const peridynamics::Paramete
   vessel.scatter.seed += wall;
 
   const peridynamics::Lattice lattice = peridynamics::make_lattice(vessel);
-  peridynamics::BondFamilies families = peridynamics::make_families(vessel, lattice);
+  const peridynamics::SharedFamilies families = peridynamics::shared_families(vessel, lattice);
   const peridynamics::TimeSteps time = peridynamics::time_steps(vessel, lattice, families);
-  const auto body =
-      peridynamics::make_body(peridynamics::make_setup(vessel, lattice, std::move(families), time.step),
-                              parallel::Communicator::self());
+  const auto body = peridynamics::make_body(peridynamics::make_setup(vessel, lattice, families, time.step),
+                                            parallel::Communicator::self());
   const auto time_at = [&](long step) { return static_cast<double>(step) * time.step; };
   const auto pressure_at = [&](long step) { return peridynamics::scheduled_pressure(vessel, time_at(step)); };
   const auto refuse = [&] {

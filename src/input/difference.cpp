@@ -19,6 +19,10 @@ std::string written(const Json& entry) {
   return entry.is_null() ? "not there" : entry.value("written", Json()).dump();
 }
 
+bool has_checksum(const Json& entry) {
+  return entry.is_object() && entry.contains("checksum");
+}
+
 }  // namespace
 
 bool is_record(const Json& json) {
@@ -35,8 +39,12 @@ std::vector<Difference> differences(const Json& earlier, const Json& now,
     const std::string key = section + "." + name;
     if (!counts(key)) return;
     const Json was = entry_of(earlier, section, name), is = entry_of(now, section, name);
-    if (was.is_null() != is.is_null() ||
-        (is.is_object() && was.is_object() && was.value("value", Json()) != is.value("value", Json())))
+    if (has_checksum(was) && has_checksum(is)) {
+      // A file that has been moved is the same, and one that was written anew may not be.
+      if (was["checksum"] != is["checksum"])
+        found.push_back({key, fmt::format("{} = {} was a file with other contents", key, written(is))});
+    } else if (was.is_null() != is.is_null() ||
+               (is.is_object() && was.is_object() && was.value("value", Json()) != is.value("value", Json())))
       found.push_back({key, fmt::format("{} was {}, and now is {}", key, written(was), written(is))});
   };
   for (const auto& [section, keys] : now.items()) {

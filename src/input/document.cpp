@@ -10,13 +10,12 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/printable.hpp"
+#include "core/text_file.hpp"
 #include "input/wording.hpp"
 
 namespace rhexis::input {
@@ -58,6 +57,64 @@ std::string reason(const toml::parse_error& error) {
                      in_a_value ? "; a text, or a number with a unit, goes in quotes, as in \"1.5 mm\"" : "");
 }
 
+/// Where a string or a comment that begins `text` ends, in bytes; 0 where none begins there.
+std::size_t quoted_length(std::string_view text) {
+  if (text.front() == '#') return std::min(text.find('\n'), text.size());
+  if (text.front() != '"' && text.front() != '\'') return 0;
+  const bool has_escapes = text.front() == '"';
+  const std::string_view triple = has_escapes ? R"(""")" : "'''";
+  const bool has_lines = text.starts_with(triple);
+  const std::string_view end = has_lines ? triple : triple.substr(0, 1);
+  for (std::size_t i = end.size(); i < text.size(); ++i) {
+    if (text.substr(i).starts_with(end)) return i + end.size();
+    if (text[i] == '\n' && !has_lines) return i;
+    if (text[i] == '\\' && has_escapes) ++i;
+  }
+  return text.size();
+}
+
+/// The first character that is not ASCII and stands outside of strings and comments, where TOML 1.0 has none.
+/// toml++ 3.3 cannot be given these: its test for white space ends in an unreachable statement for most
+/// letters of Latin, Greek and Cyrillic script. None where there is none, or where the text is not UTF-8.
+struct Outsider {
+  int line, column;
+  std::string character;
+};
+std::optional<Outsider> first_outsider(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  int line = 1, column = 1;
+  for (std::size_t i = text.starts_with(byte_order_mark) ? byte_order_mark.size() : 0; i < text.size();) {
+    const std::string_view rest = text.substr(i);
+    if (const std::size_t quoted = quoted_length(rest); quoted > 0) {
+      for (const char c : rest.substr(0, quoted)) {
+        if (c == '\n')
+          ++line, column = 1;
+        else if ((static_cast<unsigned char>(c) & 0xC0U) != 0x80U)
+          ++column;
+      }
+      i += quoted;
+      continue;
+    }
+    const std::size_t length = utf8_length(rest);
+    if (length == 0) return {};
+    if (length > 1) return Outsider{line, column, std::string(rest.substr(0, length))};
+    ++column;
+    if (text[i++] == '\n') ++line, column = 1;
+  }
+  return {};
+}
+
+/// Whether a text in it has control characters: no key means any, paths end at them, terminals obey them.
+bool has_control_character(const Value& value) {
+  if (const auto* text = std::get_if<std::string>(&value.content))
+    return std::ranges::any_of(*text, [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+  const auto* list = std::get_if<List>(&value.content);
+  return list && std::ranges::any_of(*list, has_control_character);
+}
+
+constexpr const char* no_control_characters =
+    "a text with a control character, such as a line break, which no key takes";
+
 /// Flattens the tables of a file into sections and entries.
 class Flattener {
  public:
@@ -93,11 +150,11 @@ class Flattener {
   /// messages.
   void check_name(const std::string& name, const toml::key& key) const {
     constexpr std::string_view usual = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-    if (name.empty() || name.find_first_not_of(usual) != std::string::npos)
-      fail(key,
-           fmt::format("the name {} is not one of letters, digits, _ and -; write [section] and below it "
-                       "name = value",
-                       in_quotes(name)));
+    constexpr std::size_t longest = 80;
+    if (name.empty() || name.size() > longest || name.find_first_not_of(usual) != std::string::npos)
+      fail(key, fmt::format("the name {} is not one of letters, digits, _ and -, at most {} of them; write "
+                            "[section] and below it name = value",
+                            in_quotes(shortened(name)), longest));
   }
 
   void add_section(const std::string& name, const toml::table& section) {
@@ -112,6 +169,8 @@ class Flattener {
       fail(key, fmt::format("unexpected table '{}': keys are section.name and no deeper", name));
     auto value = to_value(node);
     if (!value) fail(key, fmt::format("{} has a type that no key takes; write {}", name, accepted_types));
+    if (has_control_character(*value))
+      fail(key, fmt::format("{} = {}: {}", name, shortened(written(*value)), no_control_characters));
     const auto begin = key.source().begin;
     document_.entries.push_back({std::move(name),
                                  std::move(*value),
@@ -123,8 +182,15 @@ class Flattener {
   Document& document_;
 };
 
+/// An argument of --set as a message has it: on one line.
+std::string shown(const std::string& argument) {
+  std::string text = shortened(argument);
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
 void apply_override(Document& document, const std::string& argument) {
-  const std::string place = "--set " + shortened(argument);
+  const std::string place = "--set " + shown(argument);
   const auto equals = argument.find('=');
   if (equals == std::string::npos || equals == 0)
     throw InputError(place + ": write --set section.name=value, for example --set \"vessel.length=20 mm\"");
@@ -140,6 +206,11 @@ void apply_override(Document& document, const std::string& argument) {
     document.entries.push_back(std::move(entry));
   else
     *same = std::move(entry);
+}
+
+Value checked(Value value) {
+  if (has_control_character(value)) throw InputError(no_control_characters);
+  return value;
 }
 
 struct Writer {
@@ -164,7 +235,7 @@ std::string written(const Value& value) {
 }
 
 std::string Document::place(const Entry& entry) const {
-  if (!entry.from_file()) return "--set " + shortened(entry.argument);
+  if (!entry.from_file()) return "--set " + shown(entry.argument);
   return fmt::format("{}:{}: {} = {}", file, entry.line, entry.key, shortened(written(entry.value)));
 }
 
@@ -174,20 +245,18 @@ std::string read_text(const std::filesystem::path& file) {
   };
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored)) fail("this is a folder; give an input file (TOML)");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(fmt::format("cannot be opened: {}", std::strerror(errno)));
-  constexpr std::size_t most = 16 << 20;  // inputs are a few kilobytes; a curve with many points may be more
-  std::string text(most + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (stream.bad()) fail("cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > most) fail("is larger than 16 MiB, too large for an input file (TOML)");
-  return text;
+  // Inputs are a few kilobytes; a curve of a million points has some 40 MB.
+  return whole_file(file, 64'000'000,
+                    ", too large for an input file (TOML); a long load.table goes into load.table_file");
 }
 
 Document parse_document(std::string_view text, std::string file, std::span<const std::string> overrides) {
   Document document{.file = std::move(file), .sections = {}, .entries = {}};
+  if (const auto outsider = first_outsider(text))
+    throw InputError(
+        fmt::format("{}:{}:{}: not valid TOML: '{}' outside of quotes; names are of the letters a to "
+                    "z, digits, _ and -, and texts stand in quotes",
+                    document.file, outsider->line, outsider->column, outsider->character));
   const toml::parse_result result = toml::parse(text);
   if (!result) {
     const auto at = result.error().source().begin;
@@ -202,10 +271,12 @@ Value parse_value(std::string_view text) {
   const auto first = text.find_first_not_of(" \t");
   if (first == std::string_view::npos) throw InputError("a value is missing");
   text = text.substr(first, text.find_last_not_of(" \t") - first + 1);
-  const toml::parse_result result = toml::parse(fmt::format("value = {}", text));
-  const bool one_value = result && result.table().size() == 1;
-  if (one_value)
-    if (auto value = to_value(*result.table().get("value"))) return *value;
+  if (!first_outsider(text)) {
+    const toml::parse_result result = toml::parse(fmt::format("value = {}", text));
+    const bool one_value = result && result.table().size() == 1;
+    if (one_value)
+      if (auto value = to_value(*result.table().get("value"))) return checked(std::move(*value));
+  }
   if (std::string_view("[{\"'").find(text.front()) != std::string_view::npos)
     throw InputError(
         fmt::format("not a valid value; write {}. The shell takes quotes away: put single quotes "
@@ -215,7 +286,7 @@ Value parse_value(std::string_view text) {
       "\xEF\xBF\xBD";  // what in_quotes() puts for invalid bytes
   if (in_quotes(text).find(replacement_character) != std::string::npos)
     throw InputError("the value is not UTF-8 text");
-  return Value{std::string(text)};
+  return checked(Value{std::string(text)});
 }
 
 }  // namespace rhexis::input

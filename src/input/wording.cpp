@@ -60,6 +60,8 @@ std::string shortened(std::string text) {
 }
 
 std::optional<std::string> closest(std::string_view word, std::span<const std::string> candidates) {
+  constexpr std::size_t longest_word = 80;  // distances cost the product of two lengths
+  if (word.size() > longest_word) return {};
   const std::string wanted = lower(word);
   const std::size_t tolerance = std::max<std::size_t>(1, wanted.size() / 3);
   constexpr std::size_t shortest_part = 4;

@@ -1,5 +1,6 @@
 #include "network/network_builder.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -10,6 +11,13 @@ namespace {
 
 constexpr std::size_t most_items = 0xfffffffe;  ///< numbers of 32 bits
 
+/// What is wrong with an id; empty: nothing.
+std::string problem_of(const std::string& id) {
+  if (id.empty()) return "id is missing";
+  const bool control = std::ranges::any_of(id, [](unsigned char c) { return c < 0x20 || c == 0x7F; });
+  return control ? "id = " + id + ": it has a control character" : "";
+}
+
 }  // namespace
 
 void NetworkBuilder::refuse(const std::string& where, const std::string& problem) {
@@ -18,7 +26,7 @@ void NetworkBuilder::refuse(const std::string& where, const std::string& problem
 
 void NetworkBuilder::add(const JunctionRow& row, const std::string& where) {
   Graph& g = network_.graph;
-  if (row.id.empty()) refuse(where, "id is missing");
+  if (const std::string problem = problem_of(row.id); !problem.empty()) refuse(where, problem);
   if (g.junctions >= most_items) refuse(where, "too many junctions; 4294967294 is the most");
   const auto number = static_cast<std::uint32_t>(g.junctions);
   if (const auto [found, isnew] = junctions_.try_emplace(row.id, number); !isnew) {
@@ -72,7 +80,7 @@ double NetworkBuilder::length_of(const VesselRow& row, std::uint32_t from, std::
 
 void NetworkBuilder::add(const VesselRow& row, const std::string& where) {
   Graph& g = network_.graph;
-  if (row.id.empty()) refuse(where, "id is missing");
+  if (const std::string problem = problem_of(row.id); !problem.empty()) refuse(where, problem);
   if (g.vessels() >= most_items) refuse(where, "too many vessels; 4294967294 is the most");
   const auto number = static_cast<std::uint32_t>(g.vessels());
   if (const auto [found, isnew] = vessels_.try_emplace(row.id, number); !isnew) {

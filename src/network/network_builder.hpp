@@ -2,19 +2,16 @@
 /// messages.
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 
+#include "core/csv_table.hpp"
 #include "network/graph.hpp"
 
 namespace rhexis::network {
-
-/// Turns a quantity as written ("1 um") into SI ("m"); throws InputError.
-using ToSi = std::function<double(std::string_view quantity, std::string_view unit)>;
 
 /// One junction as read, in SI; what is not given is empty.
 struct JunctionRow {

@@ -5,17 +5,9 @@
 
 #include <fstream>
 
+#include "core/memory.hpp"
+
 namespace rhexis::output {
-namespace {
-
-std::optional<double> number_in(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  double value = 0;
-  return in >> value ? std::optional<double>(value) : std::nullopt;
-}
-
-}  // namespace
-
 std::int64_t peak_resident_bytes() {
   // VmHWM, because ru_maxrss also counts the process that started this one.
   std::ifstream status("/proc/self/status");
@@ -26,10 +18,6 @@ std::int64_t peak_resident_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return std::int64_t{usage.ru_maxrss} * 1024;
-}
-
-double physical_memory_bytes() {
-  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
 std::string processor_name() {

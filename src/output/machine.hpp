@@ -16,9 +16,6 @@ namespace rhexis::output {
 /// Peak resident memory of this process, bytes.
 std::int64_t peak_resident_bytes();
 
-/// Memory of this machine, bytes.
-double physical_memory_bytes();
-
 /// The processor's name as Linux gives it; empty where it gives none.
 std::string processor_name();
 

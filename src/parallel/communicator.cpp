@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "parallel/node.hpp"
 #include "parallel/threads.hpp"
 
 namespace rhexis::parallel {
@@ -31,14 +32,44 @@ void reduce_in_place(MPI_Comm comm, std::span<T> values, MPI_Datatype type, Redu
                 comm);
 }
 
+std::string notice_of_threads;
+
+int cores_of_machine() {
+  return static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+}
+
 /// Ranks of one machine share its cores, unless the launcher has bound each to cores of its own.
 void share_cores() {
-  MPI_Comm node;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
-  const int ranks = Communicator(node).size();
-  MPI_Comm_free(&node);
-  const auto cores_of_machine = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
-  omp_set_num_threads(std::clamp(cores_of_machine / ranks, 1, omp_get_num_procs()));
+  omp_set_num_threads(
+      std::clamp(cores_of_machine() / ranks_of_node(Communicator::world()), 1, omp_get_num_procs()));
+}
+
+/// The first number of OMP_NUM_THREADS, which may be a list by levels of nesting; 0 where it is no count.
+long threads_asked(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t+");
+  if (first == std::string::npos || text[first] < '0' || text[first] > '9') return 0;
+  char* end = nullptr;
+  const long count = std::strtol(text.c_str() + first, &end, 10);
+  while (*end == ' ' || *end == '\t') ++end;
+  return *end == '\0' || *end == ',' ? count : 0;
+}
+
+/// Takes as many threads as OMP_NUM_THREADS asks for, within reason: OpenMP's own library ends the program
+/// where the system does not give it a thread.
+void choose_threads() {
+  const char* text = std::getenv("OMP_NUM_THREADS");
+  if (text == nullptr) return share_cores();
+  const long asked = threads_asked(text);
+  const long most = std::max(64, 4 * cores_of_machine());
+  if (asked < 1) {
+    share_cores();
+  } else {
+    omp_set_num_threads(static_cast<int>(std::min(asked, most)));
+  }
+  if (asked < 1 || asked > most)
+    notice_of_threads = "OMP_NUM_THREADS = \"" + std::string(text).substr(0, 40) + "\" is " +
+                        (asked < 1 ? "no number of threads" : "more threads than serve on this machine") +
+                        "; " + std::to_string(thread_count()) + " are taken";
 }
 
 }  // namespace
@@ -47,12 +78,14 @@ Session::Session(int& argc, char**& argv) {
   // Otherwise Open MPI 5 reports "Unable to find reachable pairing" on a host with IPv4 and IPv6 addresses
   // (open-mpi/ompi issue 14079), though the ranks reach each other. A setting of the user's stays.
   setenv("OMPI_MCA_reachable", "weighted", 0);
-  // Open MPI's component 'lockedfile', for shared file pointers that nobody here uses, makes a file beside
-  // each one that is opened, and overruns a buffer where paths have more than 243 characters.
-  setenv("OMPI_MCA_sharedfp", "^lockedfile", /*overwrite=*/0);
+  // Open MPI opens a file with help of its components for shared file pointers, which nobody here uses:
+  // 'lockedfile' makes a file beside each one that is opened, and overruns a buffer where paths have more
+  // than 243 characters; 'sm' fails where /dev/shm cannot be written.
+  setenv("OMPI_MCA_sharedfp", access("/dev/shm", W_OK) == 0 ? "^lockedfile" : "^lockedfile,sm",
+         /*overwrite=*/0);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
-  if (std::getenv("OMP_NUM_THREADS") == nullptr) share_cores();
+  choose_threads();
 }
 
 Session::~Session() {
@@ -127,8 +160,20 @@ std::string Communicator::first_non_empty(const std::string& text) const {
   return first == size() ? std::string{} : broadcast(text, static_cast<int>(first));
 }
 
+int ranks_of_node(const Communicator& comm) {
+  MPI_Comm node;
+  MPI_Comm_split_type(comm.handle(), MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
+  const int ranks = Communicator(node).size();
+  MPI_Comm_free(&node);
+  return ranks;
+}
+
 int thread_count() {
-  return omp_get_max_threads();
+  return std::min(omp_get_max_threads(), omp_get_thread_limit());
+}
+
+const std::string& threads_notice() {
+  return notice_of_threads;
 }
 
 int thread_number() {

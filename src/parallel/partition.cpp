@@ -83,9 +83,9 @@ Partition make_partition(int ranks, std::span<const double> column_weights, std:
     }
   }
   if (best.column_start.empty()) {
-    throw RunError("the vessel's " + std::to_string(columns) + " columns x " + std::to_string(blocks) +
-                   " blocks of 16 rows cannot be dealt out to " + std::to_string(ranks) +
-                   " ranks; use fewer ranks");
+    throw InputError("the vessel's " + std::to_string(columns) + " columns x " + std::to_string(blocks) +
+                     " blocks of 16 rows cannot be dealt out to " + std::to_string(ranks) +
+                     " ranks; use fewer ranks");
   }
   return best;
 }

@@ -14,7 +14,7 @@
 
 namespace rhexis::peridynamics {
 
-BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families, double time_step) {
+BodySetup make_setup(const Parameters& p, Lattice lattice, SharedFamilies families, double time_step) {
   BodySetup setup;
   setup.layer = make_pressure_layer(p, lattice);
   setup.lattice = std::move(lattice);

@@ -135,7 +135,7 @@ class Body {
 
 struct BodySetup {
   Lattice lattice;
-  BondFamilies families;
+  SharedFamilies families;
   PressureLayer layer;
   EndCondition ends = EndCondition::free;
   double end_length = 0;  ///< m held at each end
@@ -155,7 +155,7 @@ struct BodySetup {
 std::pair<std::int64_t, std::int64_t> free_rows(const BodySetup& setup, int component);
 
 /// The setup that resolved parameters describe.
-BodySetup make_setup(const Parameters& p, Lattice lattice, BondFamilies families, double time_step);
+BodySetup make_setup(const Parameters& p, Lattice lattice, SharedFamilies families, double time_step);
 
 std::unique_ptr<Body> make_body(BodySetup setup, parallel::Communicator comm);
 

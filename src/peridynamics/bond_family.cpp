@@ -56,20 +56,30 @@ BondFamilies make_families(const Lattice& lattice) {
   const auto reach = static_cast<int>(std::floor(horizon / step));
   const ColumnBins bins(s, lattice.horizon * (1 + 1e-9));
 
-  BondFamilies families;
-  families.first.push_back(0);
-  for (std::size_t i = 0; i < s.size(); ++i) {
+  const auto each_bond = [&](std::size_t i, const auto& use) {
     for (std::int32_t j : bins.around(s.x[i], s.y[i])) {
       const double xi_x = (s.x[j] - s.x[i]) / lattice.spacing;
       const double xi_y = (s.y[j] - s.y[i]) / lattice.spacing;
       for (int m = -reach; m <= reach; ++m) {
         const double xi_z = step * m;
         const double length = std::sqrt(xi_x * xi_x + xi_y * xi_y + xi_z * xi_z);
-        if (length > horizon || length == 0) continue;
-        families.bonds.push_back({j, m, {xi_x, xi_y, xi_z}, length});
-        families.reach = std::max(families.reach, std::abs(m));
+        if (length <= horizon && length != 0) use(Bond{j, m, {xi_x, xi_y, xi_z}, length});
       }
     }
+  };
+
+  BondFamilies families;
+  families.first.reserve(s.size() + 1);
+  families.first.push_back(0);
+  // Counted first: an array that grows takes up to twice its room.
+  std::size_t bonds = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) each_bond(i, [&](const Bond&) { ++bonds; });
+  families.bonds.reserve(bonds);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    each_bond(i, [&](const Bond& bond) {
+      families.bonds.push_back(bond);
+      families.reach = std::max(families.reach, std::abs(bond.row_offset));
+    });
     const auto first = families.bonds.begin() + families.first.back();
     const auto later = std::find_if(first, families.bonds.end(), [&](const Bond& bond) {
       return leads_later(bond, static_cast<std::int32_t>(i));

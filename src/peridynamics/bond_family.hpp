@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -43,6 +44,9 @@ struct BondFamilies {
     return {bonds.data() + first[column], static_cast<std::size_t>(count(column))};
   }
 };
+
+/// Families that several bodies and checks of one wall read: they are what a fine wall has most of.
+using SharedFamilies = std::shared_ptr<const BondFamilies>;
 
 /// Eq. (1)'s families, |xi| <= horizon, all weights 1.
 BondFamilies make_families(const Lattice& lattice);

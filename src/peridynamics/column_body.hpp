@@ -118,14 +118,14 @@ class ColumnBody final : public Body {
         comm_(comm),
         periodic_(setup_.ends == EndCondition::axial_periodic),
         threads_(parallel::thread_count()),
-        domain_(setup_.lattice, setup_.families, partition(setup_, comm.size()), comm.rank(), periodic_),
+        domain_(setup_.lattice, *setup_.families, partition(setup_, comm.size()), comm.rank(), periodic_),
         halo_(comm, domain_.halo_messages(), 3),
         inverse_spacing_(1 / setup_.lattice.spacing),
         work_(setup_.energy_scale) {
     // Offsets between particles are 32-bit numbers in the kernel's tables.
     if (comm_.all_reduce(static_cast<std::int64_t>(domain_.padded_size()), parallel::Reduce::max) >
         INT32_MAX) {
-      throw RunError("the body is too large for " + std::to_string(comm_.size()) + " rank(s); use more");
+      throw InputError("the body is too large for " + std::to_string(comm_.size()) + " rank(s); use more");
     }
     for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c) {
       largest_load_ = std::max(largest_load_, std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
@@ -189,12 +189,12 @@ class ColumnBody final : public Body {
   static parallel::Partition partition(const BodySetup& setup, int ranks) {
     std::vector<double> weights(setup.lattice.section.size());
     for (std::size_t c = 0; c < weights.size(); ++c)
-      weights[c] = static_cast<double>(setup.families.count(c));
-    const ColumnCut cut = mean_column_cut(setup.families);
+      weights[c] = static_cast<double>(setup.families->count(c));
+    const ColumnCut cut = mean_column_cut(*setup.families);
     return parallel::make_partition(ranks, weights, setup.lattice.rows,
                                     {.bonds_across = cut.bonds,
                                      .halo_columns = cut.columns,
-                                     .halo_rows = static_cast<double>(setup.families.reach)});
+                                     .halo_rows = static_cast<double>(setup.families->reach)});
   }
 
   std::size_t global_column(std::int32_t slot) const {
@@ -243,7 +243,7 @@ class ColumnBody final : public Body {
     return rows;
   }
   const Bond& reference_bond(Unit unit, std::size_t b) const {
-    return setup_.families.bonds[setup_.families.first[global_column(unit.slot)] + b];
+    return setup_.families->bonds[setup_.families->first[global_column(unit.slot)] + b];
   }
   std::array<Real*, 3> current() { return pointers(padded_[now_]); }
   std::array<Real*, 3> next() { return pointers(padded_[1 - now_]); }

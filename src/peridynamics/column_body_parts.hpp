@@ -23,7 +23,7 @@ void ColumnBody<Law, Real>::make_parts() {
     weights.push_back(static_cast<double>(first_bond_[slot + 1] - first_bond_[slot]));
   const auto count = static_cast<int>(std::min<std::int64_t>(threads_, layout.column_count));
   const parallel::Partition split = parallel::make_partition(
-      count, weights, layout.row_count, {.bonds_across = mean_column_cut(setup_.families).bonds});
+      count, weights, layout.row_count, {.bonds_across = mean_column_cut(*setup_.families).bonds});
   std::size_t longest = 0;
   for (int p = 0; p < count; ++p) {
     Part<Real>& part = parts_.emplace_back();
@@ -57,7 +57,7 @@ void ColumnBody<Law, Real>::find_opposites() {
     for (std::size_t b = 0; b < bonds_of({slot, 0}).size(); ++b) {
       const Bond& bond = reference_bond({slot, 0}, b);
       if (!leads_later(bond, own)) continue;
-      const std::span<const Bond> family = setup_.families.of(static_cast<std::size_t>(bond.other));
+      const std::span<const Bond> family = setup_.families->of(static_cast<std::size_t>(bond.other));
       const auto earlier = std::find_if(family.begin(), family.end(),
                                         [&](const Bond& other) { return leads_later(other, bond.other); });
       const auto found = std::lower_bound(family.begin(), earlier, std::pair(own, -bond.row_offset),
@@ -76,7 +76,7 @@ void ColumnBody<Law, Real>::add_runs(Part<Real>& part, std::int32_t slot) const 
   const auto first = static_cast<std::int32_t>(global_column(part.first_slot));
   const auto past = static_cast<std::int32_t>(global_column(part.past_slot - 1)) + 1;
   const auto own = static_cast<std::int32_t>(global_column(slot));
-  const std::span<const Bond> family = setup_.families.of(static_cast<std::size_t>(own));
+  const std::span<const Bond> family = setup_.families->of(static_cast<std::size_t>(own));
   const auto bonds = static_cast<std::int32_t>(family.size());
   std::int32_t b = 0;
   while (b < bonds && family[static_cast<std::size_t>(b)].other < first) ++b;

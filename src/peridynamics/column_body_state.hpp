@@ -8,11 +8,15 @@ namespace rhexis::peridynamics {
 template <class Law, class Real>
 void ColumnBody<Law, Real>::make_bonds() {
   const PointLayout& layout = domain_.layout();
+  const auto& first = setup_.families->first;
+  bonds_.reserve(
+      static_cast<std::size_t>(first[static_cast<std::size_t>(layout.first_column + layout.column_count)] -
+                               first[static_cast<std::size_t>(layout.first_column)]));
   first_bond_.push_back(0);
   for (std::int64_t c = 0; c < layout.column_count; ++c) {
     const auto column = static_cast<std::size_t>(layout.first_column + c);
-    for (std::int64_t b = setup_.families.first[column]; b < setup_.families.first[column + 1]; ++b) {
-      const Bond& bond = setup_.families.bonds[b];
+    for (std::int64_t b = setup_.families->first[column]; b < setup_.families->first[column + 1]; ++b) {
+      const Bond& bond = setup_.families->bonds[b];
       const double own_volume = relative_volume(column);
       const double volume = relative_volume(static_cast<std::size_t>(bond.other));
       const auto offset = static_cast<std::int64_t>(domain_.padded(domain_.slot(bond.other))) +
@@ -67,7 +71,7 @@ void ColumnBody<Law, Real>::make_units() {
 template <class Law, class Real>
 std::pair<std::int64_t, std::vector<double>> ColumnBody<Law, Real>::padded_heights() const {
   const PointLayout& l = domain_.layout();
-  const std::int64_t reach = setup_.families.reach;
+  const std::int64_t reach = setup_.families->reach;
   const std::int64_t below = periodic_ ? reach : std::min(reach, l.first_row);
   const std::int64_t past = l.row_count + reach;
   const std::int64_t above = periodic_ ? past : std::min(past, l.rows - l.first_row);
@@ -168,7 +172,7 @@ void ColumnBody<Law, Real>::fill_padded() {
 template <class Law, class Real>
 BondWordLayout ColumnBody<Law, Real>::bond_word_layout() const {
   const PointLayout& l = domain_.layout();
-  const auto& first = setup_.families.first;
+  const auto& first = setup_.families->first;
   const std::int64_t row = first[static_cast<std::size_t>(l.first_column)];
   return {first.back(),
           (l.rows + block_rows - 1) / block_rows,

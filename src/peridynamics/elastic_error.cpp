@@ -4,7 +4,9 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/Sparse>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "core/error.hpp"
 #include "peridynamics/materials/with_law.hpp"
@@ -12,53 +14,92 @@
 namespace rhexis::peridynamics {
 namespace {
 
+using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::ptrdiff_t>;
+
+/// Columns that a column has bonds with, itself among them: for each, what `Block` gathers of these bonds.
+template <class Block>
+using BlockRow = std::map<std::int32_t, Block>;
+
+/// An empty matrix with room for `height` rows a column and two entries in each for every column that it has
+/// bonds with: lists of single entries, a dozen for every bond, would take more room than the bonds.
+Matrix matrix_for(const BondFamilies& families, Eigen::Index height) {
+  const std::size_t columns = families.first.size() - 1;
+  std::vector<std::int32_t> seen_by(columns, -1);
+  Eigen::Index blocks = 0;
+  for (std::size_t i = 0; i < columns; ++i) {
+    const auto own = static_cast<std::int32_t>(i);
+    ++blocks;
+    seen_by[i] = own;
+    for (const Bond& bond : families.of(i)) {
+      std::int32_t& seen = seen_by[static_cast<std::size_t>(bond.other)];
+      if (seen != own) ++blocks;
+      seen = own;
+    }
+  }
+  Matrix matrix(height * static_cast<Eigen::Index>(columns), 2 * static_cast<Eigen::Index>(columns));
+  matrix.reserve(2 * height * blocks);
+  return matrix;
+}
+
 /// Stiffness of a slice one row thick, N/m over m: column i's unknowns are 2 i and 2 i + 1.
-Eigen::SparseMatrix<double> stiffness(const BodySetup& setup) {
+Matrix stiffness(const BodySetup& setup) {
   const Lattice& lattice = setup.lattice;
-  std::vector<Eigen::Triplet<double>> entries;
+  Matrix matrix = matrix_for(*setup.families, 2);
   for (std::size_t i = 0; i < lattice.section.size(); ++i) {
-    const int row = 2 * static_cast<int>(i);
-    for (const Bond& bond : setup.families.of(i)) {
+    const auto own = static_cast<std::int32_t>(i);
+    BlockRow<std::array<std::array<double, 2>, 2>> blocks;
+    for (const Bond& bond : setup.families->of(i)) {
       const double size = setup.bond_constant * bond.weight * lattice.volume(i) *
                           lattice.volume(static_cast<std::size_t>(bond.other)) /
                           (std::pow(bond.length, 3) * lattice.spacing);
-      for (int a = 0; a < 2; ++a) {
-        for (int b = 0; b < 2; ++b) {
+      for (std::size_t a = 0; a < 2; ++a) {
+        for (std::size_t b = 0; b < 2; ++b) {
           const double value = size * bond.xi[a] * bond.xi[b];
-          entries.emplace_back(row + a, row + b, value);
-          entries.emplace_back(row + a, 2 * bond.other + b, -value);
+          blocks[own][a][b] += value;
+          blocks[bond.other][a][b] -= value;
         }
       }
     }
+    for (std::size_t a = 0; a < 2; ++a) {
+      const auto row = static_cast<Eigen::Index>(2 * i + a);
+      matrix.startVec(row);
+      for (const auto& [other, block] : blocks) {
+        for (std::size_t b = 0; b < 2; ++b)
+          matrix.insertBack(row, 2 * Eigen::Index{other} + static_cast<Eigen::Index>(b)) = block[a][b];
+      }
+    }
   }
-  const auto unknowns = static_cast<Eigen::Index>(2 * lattice.section.size());
-  Eigen::SparseMatrix<double> matrix(unknowns, unknowns);
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  matrix.finalize();
   return matrix;
 }
 
 /// What the dilatations of a state-based law add: c m V_i times the second derivative of their energy, as in
 /// materials/lps.hpp.
-Eigen::SparseMatrix<double> dilatation_stiffness(const BodySetup& setup, const Lps& law) {
+Matrix dilatation_stiffness(const BodySetup& setup, const Lps& law) {
   const Lattice& lattice = setup.lattice;
   const auto columns = static_cast<Eigen::Index>(lattice.section.size());
   const double weighted_volume = law.weighted_volume(lattice.horizon);
-  std::vector<Eigen::Triplet<double>> entries;
+  Matrix dilatation = matrix_for(*setup.families, 1);
   Eigen::VectorXd size(columns);
   for (std::size_t i = 0; i < lattice.section.size(); ++i) {
-    const int row = static_cast<int>(i);
+    const auto row = static_cast<Eigen::Index>(i);
     size[row] = 2 * law.dilatation_energy(1) * setup.bond_constant * weighted_volume * lattice.volume(i);
-    for (const Bond& bond : setup.families.of(i)) {
-      for (int a = 0; a < 2; ++a) {
+    BlockRow<std::array<double, 2>> blocks;
+    for (const Bond& bond : setup.families->of(i)) {
+      for (std::size_t a = 0; a < 2; ++a) {
         const double value = 3 / weighted_volume * bond.weight *
                              lattice.volume(static_cast<std::size_t>(bond.other)) * bond.xi[a] / bond.length;
-        entries.emplace_back(row, 2 * bond.other + a, value);
-        entries.emplace_back(row, 2 * row + a, -value);
+        blocks[bond.other][a] += value;
+        blocks[static_cast<std::int32_t>(i)][a] -= value;
       }
     }
+    dilatation.startVec(row);
+    for (const auto& [other, block] : blocks) {
+      for (std::size_t a = 0; a < 2; ++a)
+        dilatation.insertBack(row, 2 * Eigen::Index{other} + static_cast<Eigen::Index>(a)) = block[a];
+    }
   }
-  Eigen::SparseMatrix<double> dilatation(columns, 2 * columns);
-  dilatation.setFromTriplets(entries.begin(), entries.end());
+  dilatation.finalize();
   return dilatation.transpose() * size.asDiagonal() * dilatation;
 }
 
@@ -90,11 +131,11 @@ ElasticError elastic_error(const Parameters& p, const BodySetup& setup) {
     load[static_cast<Eigen::Index>(2 * i + 1)] = setup.lattice.volume(i) * setup.layer.by[i];
   }
   balance(s, load);
-  Eigen::SparseMatrix<double> matrix = stiffness(setup);
+  Matrix matrix = stiffness(setup);
   with_law(setup.law, [&]<class Law>(const Law& law) {
     if constexpr (Law::state_based) matrix += dilatation_stiffness(setup, law);
   });
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver(matrix);
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver(matrix);
   solver.setTolerance(1e-8);
   Eigen::VectorXd u = solver.solve(load);
   if (solver.info() != Eigen::Success) throw RunError("the bonds do not hold the wall together");

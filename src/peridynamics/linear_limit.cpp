@@ -51,7 +51,7 @@ class Accelerations {
  private:
   /// Of the uniform wall; as few rows as hold a family and the shortest waves along the axis.
   static BodySetup periodic_piece(BodySetup setup) {
-    setup.lattice.rows = 2 * setup.families.reach + 2;
+    setup.lattice.rows = 2 * setup.families->reach + 2;
     setup.ends = EndCondition::axial_periodic;
     setup.double_bonds = true;
     setup.heterogeneity = {};

@@ -125,6 +125,19 @@ ParameterList declare(Parameters& p) {
        "Pressure by time, linear in between, constant outside: [[\"0 ms\", \"0 kPa\"], [\"2 ms\", \"200 "
        "kPa\"]].",
        "", Range::not_negative()},
+      only_with(
+          {"load.schedule", {"\"table\""}},
+          {"load.table_file", &p.table_file, "", "\"\"",
+           "CSV file to read the table from, instead of load.table: a header \"time [s],pressure [mmHg]\" "
+           "(any "
+           "units), then a row for each point. Looked for from the working folder, then beside the input.",
+           ""}),
+      only_with(
+          {"load.schedule", {"\"table\""}},
+          {"load.repeat", &p.repeat, "", "false",
+           "Repeat the table, as heart beats do: it begins at 0, its last time is the period, and its first "
+           "and last pressure agree.",
+           ""}),
       {"load.layer",
        &p.layer,
        "",
@@ -257,21 +270,39 @@ void resolve_spacing(Parameters& p) {
   }
 }
 
+/// A table that is repeated has a period, and no leap between one and the next.
+void check_period(const Parameters& p) {
+  const auto& [first_time, first] = p.table.front();
+  const auto& [period, last] = p.table.back();
+  if (first_time != 0)
+    throw InputError("a table that is repeated begins at 0 s, and this one at " + quantity(first_time, "s"),
+                     "load.repeat");
+  constexpr double tolerance = 1e-6;  // of the highest pressure: digits that people write
+  if (std::abs(last - first) > tolerance * highest_pressure(p))
+    throw InputError("a table that is repeated ends at the pressure that it begins with, " +
+                         quantity(first, "Pa", 6) + ", and this one at " + quantity(last, "Pa", 6) + " (" +
+                         quantity(period, "s") + ")",
+                     "load.repeat");
+}
+
 void resolve_load(Parameters& p) {
   if (!p.ramp_time) p.ramp_time = p.end_time;
   if (!p.layer_thickness) p.layer_thickness = p.horizon;
   if (!p.supply_area) p.supply_area = std::numbers::pi * p.inner_radius * p.inner_radius;
   if (p.schedule == "table") {
     if (p.table.size() < 2) {
-      throw InputError("schedule \"table\" needs at least two points [time, pressure]", "load.table");
+      throw InputError("schedule \"table\" needs at least two points [time, pressure], or load.table_file",
+                       "load.table");
     }
     for (std::size_t i = 1; i < p.table.size(); ++i) {
       if (!(p.table[i].first > p.table[i - 1].first)) {
         throw InputError("times must increase; point " + std::to_string(i + 1) + " does not", "load.table");
       }
     }
+    if (p.repeat) check_period(p);
   } else if (!p.table.empty()) {
-    throw InputError("the table is not used unless load.schedule is \"table\"", "load.table");
+    throw InputError("the table is not used unless load.schedule is \"table\"",
+                     p.table_file.empty() ? "load.table" : "load.table_file");
   }
 }
 

@@ -45,6 +45,8 @@ struct Parameters {
   std::string schedule;                   ///< "step" | "ramp" | "smooth_ramp" | "table"
   std::optional<double> ramp_time;        ///< s
   std::vector<CurvePoint> table;          ///< (s, Pa)
+  std::string table_file;                 ///< where the table comes from; empty: the input itself
+  bool repeat = false;                    ///< the table, again and again
   std::string layer;                      ///< see PressureLayer
   std::optional<double> layer_thickness;  ///< m
   std::string venting;                    ///< "none" | "orifice"

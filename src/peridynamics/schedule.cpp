@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/format.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -41,13 +42,22 @@ double schedule_share(const Parameters& p, double time_s) {
 }
 
 double scheduled_pressure(const Parameters& p, double time_s) {
-  if (p.schedule == "table") return interpolate(p.table, p.schedule_start + time_s);
+  if (p.schedule == "table") {
+    const double time = p.schedule_start + time_s;
+    return interpolate(p.table, p.repeat ? std::fmod(time, p.table.back().first) : time);
+  }
   return p.pressure * schedule_share(p, time_s);
 }
 
 double highest_pressure(const Parameters& p) {
   if (p.schedule != "table") return p.pressure;
   return std::ranges::max(p.table, {}, &CurvePoint::second).second;
+}
+
+std::string describe_schedule(const Parameters& p) {
+  if (p.schedule != "table") return p.schedule;
+  return "table of " + std::to_string(p.table.size()) + " points to " + quantity(p.table.back().first, "s") +
+         (p.repeat ? ", repeated" : "");
 }
 
 double time_of_pressure(const Parameters& p, double pressure) {

@@ -12,12 +12,16 @@ double schedule_share(const Parameters& p, double time_s);
 ///   step         P
 ///   ramp         P t/T for t < T, then P
 ///   smooth_ramp  P (1 - cos(pi t/T))/2 for t < T, then P
-///   table        linear between points, constant outside
+///   table        linear between points; constant outside, or with load.repeat a function of the time within
+///                a period, the table's last time
 /// with t counted from schedule_start.
 double scheduled_pressure(const Parameters& p, double time_s);
 
-/// The most that the schedule ever has, Pa.
+/// The most that the schedule ever has, Pa; of a table, of all its points.
 double highest_pressure(const Parameters& p);
+
+/// "ramp", "table of 4 points to 800 ms, repeated".
+std::string describe_schedule(const Parameters& p);
 
 /// When, in s, the schedule first has `pressure` (Pa; 0 for "step"). Throws InputError where it never has.
 double time_of_pressure(const Parameters& p, double pressure);

@@ -227,4 +227,8 @@ BondFamilies make_families(const Parameters& p, const Lattice& lattice) {
   return families;
 }
 
+SharedFamilies shared_families(const Parameters& p, const Lattice& lattice) {
+  return std::make_shared<const BondFamilies>(make_families(p, lattice));
+}
+
 }  // namespace rhexis::peridynamics

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -17,7 +18,7 @@ double stable_time_step(const BodySetup& setup) {
     const WallFactors largest = setup.heterogeneity.largest(lattice);
     const double critical_stretch = setup.critical_stretch * largest.critical_stretch;
     const double of_bonds =
-        stable_time_step(lattice, setup.families, setup.bond_constant, setup.density, critical_stretch) /
+        stable_time_step(lattice, *setup.families, setup.bond_constant, setup.density, critical_stretch) /
         std::sqrt(largest.stiffness * law.stiffness_ratio(critical_stretch));
     if constexpr (!Law::state_based) {
       return of_bonds;
@@ -28,20 +29,20 @@ double stable_time_step(const BodySetup& setup) {
       const double energy =
           setup.bond_constant * law.weighted_volume(lattice.horizon) * law.dilatation_energy(1);
       const double squared = 2 * energy * largest.stiffness *
-                             dilatation_bound(lattice, setup.families, periodic) /
+                             dilatation_bound(lattice, *setup.families, periodic) /
                              (setup.density * lattice.spacing * lattice.spacing);
       return of_bonds / std::sqrt(1 + squared * of_bonds * of_bonds / 4);
     }
   });
 }
 
-double stable_time_step(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
-  return stable_time_step(make_setup(p, lattice, families, 0));
+double stable_time_step(const Parameters& p, const Lattice& lattice, SharedFamilies families) {
+  return stable_time_step(make_setup(p, lattice, std::move(families), 0));
 }
 
-TimeSteps time_steps(const Parameters& p, const Lattice& lattice, const BondFamilies& families) {
+TimeSteps time_steps(const Parameters& p, const Lattice& lattice, SharedFamilies families) {
   TimeSteps t;
-  t.stable = stable_time_step(p, lattice, families);
+  t.stable = stable_time_step(p, lattice, std::move(families));
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
   if (t.step > t.stable && !p.allow_unstable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +

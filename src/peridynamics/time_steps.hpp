@@ -16,10 +16,10 @@ struct TimeSteps {
 
 /// s, of the material's law; for bonds compressed no more than those that break are stretched.
 double stable_time_step(const BodySetup& setup);
-double stable_time_step(const Parameters& p, const Lattice& lattice, const BondFamilies& families);
+double stable_time_step(const Parameters& p, const Lattice& lattice, SharedFamilies families);
 
 /// The user's step, or a share of the stable one that divides the end time evenly. Throws InputError for a
 /// step that is unstable, or for far too many.
-TimeSteps time_steps(const Parameters& p, const Lattice& lattice, const BondFamilies& families);
+TimeSteps time_steps(const Parameters& p, const Lattice& lattice, SharedFamilies families);
 
 }  // namespace rhexis::peridynamics

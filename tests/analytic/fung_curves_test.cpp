@@ -85,8 +85,8 @@ class Rod {
   /// The same summed here, bond by bond.
   double summed_energy(Stretches f) const {
     double sum = 0;
-    for (std::int64_t b = setup_.families.first[middle_]; b < setup_.families.first[middle_ + 1]; ++b) {
-      const Bond& bond = setup_.families.bonds[b];
+    for (std::int64_t b = setup_.families->first[middle_]; b < setup_.families->first[middle_ + 1]; ++b) {
+      const Bond& bond = setup_.families->bonds[b];
       const double s =
           std::hypot(f.lateral * bond.xi[0], f.lateral * bond.xi[1], f.axial * bond.xi[2]) / bond.length - 1;
       sum += bond.length * std::expm1(exponent * s * s) / (2 * exponent);

@@ -39,7 +39,7 @@ int run(int argc, char** argv) {
     std::puts("columns,bonds_a_particle,stable_step_s,error,spread");
     std::printf(
         "%zu,%.10g,%.10g,%.10g,%.10g\n", setup.lattice.section.size(),
-        static_cast<double>(setup.families.bonds.size()) / static_cast<double>(setup.lattice.section.size()),
+        static_cast<double>(setup.families->bonds.size()) / static_cast<double>(setup.lattice.section.size()),
         test::stable_step_of(setup), e.relative_l2, e.spread);
   } else if (study == "energy") {
     std::puts("strain,wall,least,most");

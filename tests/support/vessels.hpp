@@ -61,7 +61,7 @@ inline peridynamics::Parameters endless_vessel(const std::string& cross_section,
 inline peridynamics::BodySetup setup_of(peridynamics::Parameters p, double time_step) {
   peridynamics::resolve(p);
   peridynamics::Lattice lattice = peridynamics::make_lattice(p);
-  peridynamics::BondFamilies families = peridynamics::make_families(p, lattice);
+  peridynamics::SharedFamilies families = peridynamics::shared_families(p, lattice);
   return peridynamics::make_setup(p, std::move(lattice), std::move(families), time_step);
 }
 
@@ -69,7 +69,7 @@ inline peridynamics::BodySetup setup_of(peridynamics::Parameters p, double time_
 inline peridynamics::BodySetup two_particles(bool doubles, double critical_stretch, double time_step) {
   peridynamics::BodySetup s;
   s.lattice = {{{0.0, 1.0}, {0.0, 0.0}, {1.0, 1.0}}, 1, 1.0, 1.0, 1.5};
-  s.families = make_families(s.lattice);
+  s.families = std::make_shared<const peridynamics::BondFamilies>(make_families(s.lattice));
   s.layer = {{0.0, 0.0}, {0.0, 0.0}};
   s.density = 1;
   s.bond_constant = 1;
@@ -81,7 +81,7 @@ inline peridynamics::BodySetup two_particles(bool doubles, double critical_stret
 }
 
 inline double stable_step_of(const peridynamics::BodySetup& s) {
-  return peridynamics::stable_time_step(s.lattice, s.families, s.bond_constant, s.density,
+  return peridynamics::stable_time_step(s.lattice, *s.families, s.bond_constant, s.density,
                                         s.critical_stretch);
 }
 

@@ -53,7 +53,7 @@ TEST(Partition, ShortVesselIsCutLengthwise) {
 }
 
 TEST(Partition, MoreRanksThanPiecesAreRefused) {
-  EXPECT_THROW(make_partition(5, std::vector<double>(2, 1.0), 32, {}), RunError);
+  EXPECT_THROW(make_partition(5, std::vector<double>(2, 1.0), 32, {}), InputError);
 }
 
 }  // namespace

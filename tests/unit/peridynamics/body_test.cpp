@@ -200,8 +200,8 @@ TEST_P(Precision, HalvedBodyHasTheDamageOfItsCut) {
   for (std::int64_t c = 0; c < l.columns; ++c) {
     for (std::int64_t r = 0; r < l.rows; ++r) {
       double whole = 0, beyond = 0;
-      for (std::int64_t b = setup.families.first[c]; b < setup.families.first[c + 1]; ++b) {
-        const std::int64_t other = r + setup.families.bonds[b].row_offset;
+      for (std::int64_t b = setup.families->first[c]; b < setup.families->first[c + 1]; ++b) {
+        const std::int64_t other = r + setup.families->bonds[b].row_offset;
         if (other < 0 || other >= l.rows) continue;
         whole += 1;
         if ((other >= 10) != (r >= 10)) beyond += 1;

@@ -112,8 +112,8 @@ struct Pulled {
   void for_each_bond(const Function& f) const {
     for (std::size_t c = 0; c < factors.size(); ++c) {
       for (std::int64_t r = 0; r < setup.lattice.rows; ++r) {
-        for (std::int64_t b = setup.families.first[c]; b < setup.families.first[c + 1]; ++b) {
-          const Bond& bond = setup.families.bonds[b];
+        for (std::int64_t b = setup.families->first[c]; b < setup.families->first[c + 1]; ++b) {
+          const Bond& bond = setup.families->bonds[b];
           const std::int64_t other = r + bond.row_offset;
           if (other < 0 || other >= setup.lattice.rows) continue;
           const double y_z = (1 + strain) * bond.xi[2];
@@ -197,7 +197,7 @@ TEST(HeterogeneousBody, StableStepIsThatOfTheStiffestPlace) {
   resolve(uniform);
   resolve(stiff);
   const Lattice lattice = make_lattice(stiff);
-  const BondFamilies families = make_families(lattice);
+  const auto families = std::make_shared<const BondFamilies>(make_families(lattice));
   double largest = 0;
   for (const auto& column : Pulled(stiff).factors) {
     for (const WallFactors& f : column) largest = std::max(largest, f.stiffness);
@@ -219,7 +219,7 @@ TEST(HeterogeneousBody, StableStepIsThatOfTheMostExtensiblePlace) {
     const auto stable = [](Parameters& p) {
       resolve(p);
       const Lattice lattice = make_lattice(p);
-      return stable_time_step(p, lattice, make_families(p, lattice));
+      return stable_time_step(p, lattice, shared_families(p, lattice));
     };
     EXPECT_NEAR(stable(spotted) / stable(uniform), 1, 1e-5) << law;
     EXPECT_LT(stable(uniform), 0.9 * stable(nominal)) << law;

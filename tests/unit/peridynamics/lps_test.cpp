@@ -65,8 +65,8 @@ Rod strained(double nu, const std::array<std::array<double, 3>, 3>& strain) {
     if (std::hypot(s.x[c], s.y[c]) < std::hypot(s.x[middle], s.y[middle])) middle = c;
   }
   Rod rod{};
-  for (std::int64_t b = setup.families.first[middle]; b < setup.families.first[middle + 1]; ++b) {
-    const Bond& bond = setup.families.bonds[static_cast<std::size_t>(b)];
+  for (std::int64_t b = setup.families->first[middle]; b < setup.families->first[middle + 1]; ++b) {
+    const Bond& bond = setup.families->bonds[static_cast<std::size_t>(b)];
     rod.weighted_volume += bond.length;
     rod.shear_sum += std::pow(bond.xi[0] * bond.xi[1], 2) / std::pow(bond.length, 3);
   }
@@ -172,7 +172,7 @@ TEST(Lps, StableStepIsSafeAndNotWasteful) {
       p.cross_section = "polar";
       resolve(p);
       const Lattice lattice = make_lattice(p);
-      const double bound = stable_time_step(p, lattice, make_families(p, lattice)),
+      const double bound = stable_time_step(p, lattice, shared_families(p, lattice)),
                    longest = longest_stable_step(p);
       std::printf("nu = %.2f, %s: stable step %.4g s, %.3f of the longest\n", nu, ends, bound,
                   bound / longest);

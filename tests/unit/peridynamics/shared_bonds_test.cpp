@@ -52,7 +52,7 @@ TEST_P(Threads, BothEndsKnowThatABondIsBroken) {
   for (int i = 0; i < 30; ++i) told += body->advance(0, 0).broken;
   const Body::Saved saved = body->save();
   const BondWordLayout layout = body->bond_word_layout();
-  const BondFamilies& f = setup.families;
+  const BondFamilies& f = *setup.families;
   std::int64_t broken = 0;
   for (std::size_t c = 0; c + 1 < f.first.size(); ++c) {
     for (std::int64_t b = f.first[c]; b < f.first[c + 1]; ++b) {

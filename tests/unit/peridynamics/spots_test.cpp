@@ -121,8 +121,8 @@ TEST_P(ThinSpot, ItsOuterPartIsMissing) {
   std::int64_t bonds = 0;
   for (std::size_t c = 0; c < lattice.section.size(); ++c) {
     for (std::int64_t r = 0; r < lattice.rows; ++r) {
-      for (std::int64_t b = setup.families.first[c]; b < setup.families.first[c + 1]; ++b) {
-        const Bond& bond = setup.families.bonds[b];
+      for (std::int64_t b = setup.families->first[c]; b < setup.families->first[c + 1]; ++b) {
+        const Bond& bond = setup.families->bonds[b];
         const std::int64_t other = r + bond.row_offset;
         const std::int64_t wrapped = (other + lattice.rows) % lattice.rows;
         bonds += here[c * lattice.rows + r] && here[bond.other * lattice.rows + wrapped] ? 1 : 0;
