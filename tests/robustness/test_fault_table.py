@@ -89,6 +89,9 @@ FOLDERS = [
 
 
 INPUTS = [
+    Fault("a wall of 600 mm in particles of 250 um", 2, ["vessel.outer_radius", "would fit"], scene=VESSEL.replace('"2 mm"', '"622.1436517410052 mm"'), command=["check",
+                                                                                                                                       "s.toml"]),
+    Fault("a wall of two metres", 2, ["vessel.outer_radius", "would fit"], scene=VESSEL.replace('"2 mm"', '"2 m"'), command=["check", "s.toml"]),
     Fault("a key that begins with an accent", 2, ["s.toml:5", "'é'"], scene=VESSEL.replace("[discretisation]", "élength = 1\n[discretisation]")),
 ]
 

@@ -145,7 +145,7 @@ def not_finite(folder, record):
                         finite = text is None or math.isfinite(float(text))
                     except ValueError:
                         continue  # a name
-                    if not finite and name != "to":  # the last bin of a histogram has no end
+                    if not finite and name not in ("from", "to"):  # the outer bins of a histogram have no end
                         yield f"{table.name}: {name} = {text}"
     for name in ("energy_drift", "steps", "particles"):
         if name in record["results"] and record["results"][name] is None and record["input"]["scene"]["model"] == "vessel":
