@@ -231,8 +231,10 @@ class Endings(VesselCase):
                 out, error = process.communicate(timeout=120)
                 self.assertEqual(process.returncode, 3, error)
                 why = f"{folder}/{name}: has been " + ("taken away" if take is os.remove else "replaced by another")
-                self.assertIn(why, error)
-                self.assertTrue(self.status(folder).startswith("failed: " + why))
+                if name == "particles.h5":  # the step before may have been on its way to the disk
+                    why = f"{folder}/{name}: (has been taken away|cannot open the file)"
+                self.assertRegex(error, "rhexis: " + why)
+                self.assertRegex(self.status(folder), "^failed: " + why)
                 checkpoint = self.last_checkpoint(folder)
                 self.assertIn(f"--restart {folder}/checkpoints/{checkpoint.name}", out)
                 if take is not os.remove:
