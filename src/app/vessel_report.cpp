@@ -48,9 +48,9 @@ void VesselRun::say_header() {
   console_.item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
                                     quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
                                     quantity(c_.stable_time_step, "s")));
-  console_.item(
-      "load", fmt::format("{} ({}), layer {}, venting {}", quantity(peridynamics::highest_pressure(v), "Pa"),
-                          peridynamics::describe_schedule(v), v.layer, v.venting));
+  console_.item("load", fmt::format("{} ({}) on the undeformed lumen, layer {}, venting {}",
+                                    quantity(peridynamics::highest_pressure(v), "Pa"),
+                                    peridynamics::describe_schedule(v), v.layer, v.venting));
   if (coupling_ != nullptr) {
     coupling_->say_header(console_);
   } else {
@@ -65,11 +65,14 @@ void VesselRun::say_summary() {
   const auto at = [](const std::optional<double>& time) { return time ? quantity(*time, "s") : "none"; };
   console_.line(signal_ != 0 ? "Interrupted; everything so far is saved." : "Done.");
   console_.item("first break", at(r.first_bond_break_s));
-  console_.item("rupture", r.rupture_onset_s
-                               ? fmt::format("begins at {} (damage {} somewhere), {} long at the end",
-                                             at(r.rupture_onset_s), peridynamics::rupture_damage,
-                                             quantity(*r.rupture_length_m, "m"))
-                               : "none");
+  console_.item(
+      "rupture",
+      r.rupture_onset_s
+          ? fmt::format("begins at {} (damage {} somewhere) under a blood pressure of {}, {} long "
+                        "at the end",
+                        at(r.rupture_onset_s), peridynamics::rupture_damage,
+                        quantity(*r.blood_pressure_at_onset_Pa, "Pa", 3), quantity(*r.rupture_length_m, "m"))
+          : "none");
   console_.item(
       "at the end",
       fmt::format("largest displacement {}, largest damage {:.0f} %, opening {:.3g} mm2",

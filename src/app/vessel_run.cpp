@@ -93,8 +93,8 @@ void VesselRun::build() {
   results_.bonds = body_->bonds();
   source_ = std::make_unique<peridynamics::ParticleSource>(*body_);
   gauge_ = std::make_unique<peridynamics::OpeningGauge>(lattice_, *body_, comm_, ends, thin_spots);
-  if (coupling_ == nullptr) return;
   lumen_ = std::make_unique<peridynamics::LumenGauge>(lattice_, *body_, comm_);
+  if (coupling_ == nullptr) return;
   take_load();
   results_.network = coupling_->network_results();
   results_.coupling = coupling_->results();
@@ -284,10 +284,14 @@ void VesselRun::take_notice(long step, std::uint64_t flags) {
   if (flags & Flag::ruptured && !results_.rupture_onset_s) {
     results_.rupture_onset_s = time_at(step);
     results_.pressure_at_onset_Pa = pressure_at(step) * vent_now_;
+    results_.blood_pressure_at_onset_Pa = *results_.pressure_at_onset_Pa / lumen_->largest_stretch();
     results_.max_displacement_at_onset_m = body_->max_displacement();
-    console_.line(fmt::format("  rupture begins at {} under {}, largest displacement {}",
-                              quantity(time_at(step), "s"), quantity(*results_.pressure_at_onset_Pa, "Pa"),
-                              quantity(*results_.max_displacement_at_onset_m, "m", 3)));
+    console_.line(
+        fmt::format("  rupture begins at {} under {} on the reference area (a blood pressure of {}), largest "
+                    "displacement {}",
+                    quantity(time_at(step), "s"), quantity(*results_.pressure_at_onset_Pa, "Pa"),
+                    quantity(*results_.blood_pressure_at_onset_Pa, "Pa"),
+                    quantity(*results_.max_displacement_at_onset_m, "m", 3)));
   }
 }
 

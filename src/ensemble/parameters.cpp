@@ -11,7 +11,8 @@ namespace rhexis::ensemble {
 ParameterList declare(Parameters& p) {
   return {
       {"ensemble.pressures", &p.pressures, "Pa", "[]",
-       "Pressures that every wall meets, each after the schedule: [\"100 mmHg\", \"150 mmHg\"]; or give "
+       "Pressures that every wall meets, each after the schedule, on the undeformed lumen as load.pressure: "
+       "[\"100 mmHg\", \"150 mmHg\"]; or give "
        "lowest_pressure, highest_pressure and pressure_count.",
        "", Range::positive()},
       {"ensemble.lowest_pressure", &p.lowest_pressure, "Pa", "\"auto\"",

@@ -53,6 +53,7 @@ void to_json(Json& json, const Results& results) {
                        {"first_bond_break_s", or_null(results.first_bond_break_s)},
                        {"rupture_onset_s", or_null(results.rupture_onset_s)},
                        {"pressure_at_onset_Pa", or_null(results.pressure_at_onset_Pa)},
+                       {"blood_pressure_at_onset_Pa", or_null(results.blood_pressure_at_onset_Pa)},
                        {"max_displacement_at_onset_m", or_null(results.max_displacement_at_onset_m)},
                        {"max_displacement_m", or_null(results.max_displacement_m)},
                        {"max_damage", or_null(results.max_damage)},

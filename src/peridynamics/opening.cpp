@@ -186,7 +186,7 @@ LumenGauge::LumenGauge(const Lattice& lattice, const Body& body, parallel::Commu
   }
 }
 
-double LumenGauge::resistance_factor() const {
+std::vector<double> LumenGauge::stretch_of_rows() const {
   constexpr double quantum = 0x1p-40;  // of stretch: sums of integers do not depend on ranks
   const PointLayout& layout = body_->layout();
   const auto u = body_->displacement();
@@ -203,12 +203,22 @@ double LumenGauge::resistance_factor() const {
     }
   }
   comm_.all_reduce(stretch, parallel::Reduce::sum);
+  std::vector<double> mean;
+  for (const std::int64_t s : stretch)
+    mean.push_back(static_cast<double>(s) * quantum / static_cast<double>(innermost_.size()));
+  return mean;
+}
+
+double LumenGauge::resistance_factor() const {
+  const std::vector<double> stretch = stretch_of_rows();
   double sum = 0;
-  for (const std::int64_t s : stretch) {
-    const double mean = static_cast<double>(s) * quantum / static_cast<double>(innermost_.size());
-    sum += std::pow(mean, -4);
-  }
-  return sum / static_cast<double>(layout.rows);
+  for (const double s : stretch) sum += std::pow(s, -4);
+  return sum / static_cast<double>(stretch.size());
+}
+
+double LumenGauge::largest_stretch() const {
+  const std::vector<double> stretch = stretch_of_rows();
+  return *std::max_element(stretch.begin(), stretch.end());
 }
 
 double venting_factor(double open_area, double supply_area) {

@@ -55,7 +55,14 @@ class LumenGauge {
   /// particles. The same for any ranks. Collective.
   double resistance_factor() const;
 
+  /// Largest over the rows of r / r0 as above. Where ends are held, the area of the lumen's surface there has
+  /// grown by the same factor. The same for any ranks. Collective.
+  double largest_stretch() const;
+
  private:
+  /// r / r0 of every axial row of the whole vessel, [rows]. Collective.
+  std::vector<double> stretch_of_rows() const;
+
   const Body* body_;
   parallel::Communicator comm_;
   std::vector<std::int64_t> innermost_;  ///< columns, ascending

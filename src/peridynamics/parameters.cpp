@@ -106,10 +106,13 @@ ParameterList declare(Parameters& p) {
                  "Length held at each end where ends are clamped or sliding; \"auto\" is one horizon.", "",
                  Range::positive()}),
 
-      only_with({"load.schedule", {"\"step\"", "\"ramp\"", "\"smooth_ramp\""}},
-                {"load.pressure", &p.pressure, "Pa", "\"238 kPa\"",
-                 "Net pressure on the lumen, P_net, after the schedule.", "Table 2, Eq. (7)",
-                 Range::not_negative()}),
+      only_with(
+          {"load.schedule", {"\"step\"", "\"ramp\"", "\"smooth_ramp\""}},
+          {"load.pressure", &p.pressure, "Pa", "\"238 kPa\"",
+           "Net pressure on the lumen, P_net, after the schedule. It acts on the undeformed lumen's area in "
+           "its undeformed directions (Eq. 8): a lumen stretched by 1.27 is pushed by 282 kPa as hard as "
+           "a blood pressure of 222 kPa would push it.",
+           "Table 2, Eqs. (7), (8)", Range::not_negative()}),
       {"load.schedule",
        &p.schedule,
        "",
@@ -122,7 +125,8 @@ ParameterList declare(Parameters& p) {
                 {"load.ramp_time", &p.ramp_time, "s", "\"auto\"", "Duration of a ramp; \"auto\" is time.end.",
                  "", Range::positive()}),
       {"load.table", &p.table, "s, Pa", "[]",
-       "Pressure by time, linear in between, constant outside: [[\"0 ms\", \"0 kPa\"], [\"2 ms\", \"200 "
+       "Pressure by time, on the undeformed lumen as load.pressure, linear in between, constant outside: "
+       "[[\"0 ms\", \"0 kPa\"], [\"2 ms\", \"200 "
        "kPa\"]].",
        "", Range::not_negative()},
       only_with(

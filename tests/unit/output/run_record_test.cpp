@@ -46,7 +46,8 @@ TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
   EXPECT_EQ(json["status"], "running");
   EXPECT_EQ(keys_of(json["results"]),
             words("particles bonds family_max time_step_s stable_time_step_s steps simulated_s "
-                  "first_bond_break_s rupture_onset_s pressure_at_onset_Pa max_displacement_at_onset_m "
+                  "first_bond_break_s rupture_onset_s pressure_at_onset_Pa blood_pressure_at_onset_Pa "
+                  "max_displacement_at_onset_m "
                   "max_displacement_m max_damage rupture_length_m opening_area_m2 energy_drift network "
                   "coupling cascade ensemble"));
   EXPECT_EQ(keys_of(json["results"]["network"]),

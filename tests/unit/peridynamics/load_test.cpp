@@ -263,7 +263,7 @@ TEST(Venting, ClosedForms) {
   EXPECT_EQ(orifice_flow(0.62, 1e-6, -5, 1060), 0);
 }
 
-TEST(LumenGauge, ResistanceOfAWidenedVessel) {
+TEST(LumenGauge, ResistanceAndStretchOfAWidenedVessel) {
   for (const char* kind : {"lattice", "polar"}) {
     Parameters p = test::paper_vessel();
     p.cross_section = kind;
@@ -272,6 +272,7 @@ TEST(LumenGauge, ResistanceOfAWidenedVessel) {
     const auto body = make_body(setup, test::self());
     const LumenGauge gauge(lattice, *body, test::self());
     EXPECT_NEAR(gauge.resistance_factor(), 1, 1e-10) << kind;
+    EXPECT_NEAR(gauge.largest_stretch(), 1, 1e-10) << kind;
     const double half = static_cast<double>(lattice.rows) * lattice.row_spacing / 2;
     // One half wider by a tenth, the other narrower by a fifth.
     const auto u = test::sample(*body, [&](const std::array<double, 3>& x) {
@@ -282,6 +283,7 @@ TEST(LumenGauge, ResistanceOfAWidenedVessel) {
         test::sample(*body, [](const std::array<double, 3>&) { return std::array<double, 3>{}; });
     body->set_state(u, rest);
     EXPECT_NEAR(gauge.resistance_factor(), (std::pow(1.1, -4) + std::pow(0.8, -4)) / 2, 1e-9) << kind;
+    EXPECT_NEAR(gauge.largest_stretch(), 1.1, 1e-10) << kind;
   }
 }
 
