@@ -59,6 +59,7 @@ void VesselRun::for_each_number(peridynamics::Body::Saved& saved, const Visit& v
   visit("first_bond_break_time", results_.first_bond_break_s, 0, largest);
   visit("rupture_onset_time", results_.rupture_onset_s, 0, largest);
   visit("pressure_at_onset", results_.pressure_at_onset_Pa, 0, largest);
+  visit("blood_pressure_at_onset", results_.blood_pressure_at_onset_Pa, 0, largest);
   visit("max_displacement_at_onset", results_.max_displacement_at_onset_m, 0, largest);
 }
 
