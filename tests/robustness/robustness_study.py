@@ -8,12 +8,13 @@
 What must hold: no signal, no hang, exit status 0, 2 or 3 only; after status 2 one message, and no file made, changed or removed;
 nothing that is no number in what is called completed; a restart, from a damaged checkpoint too, gives the results of an
 undisturbed run bit by bit, or is refused. Every case is a function of --seed and its number: `--first N --count 1` repeats one.
-What does not hold is kept below --output, and makes the exit status 1. Needs python3-h5py.
+What does not hold is kept below --output, and makes the exit status 1. Ctrl-C or SIGTERM ends it early and reports. Needs python3-h5py.
 """
 
 import argparse
 import pathlib
 import shutil
+import signal
 import sys
 from concurrent.futures import ThreadPoolExecutor
 
@@ -45,6 +46,7 @@ def main():
     output.mkdir(parents=True, exist_ok=True)
     for case in output.glob("case_*"):
         shutil.rmtree(case)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
     program = Program(options.program.resolve(), MPIRUN)
     if options.no_memory_limit:
         program.memory_kib = "unlimited"

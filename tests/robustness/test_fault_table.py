@@ -161,6 +161,8 @@ SCRIPTS = [
     drawing("two scripts whose files have one name", 2, ["b.py", "table_", "a.py"], [exported("particles", EARLIER)] * 2),
     drawing("a writer of volumes on points", 2, ["a.py, line 9", "VTU"],
             [exported("particles", EARLIER, "v = CreateExtractor('VTU', particlesxdmf)", "v.Writer.FileName = 'v_{timestep:06d}.vtu'")]),
+    drawing("a writer of many blocks on points", 2, ["a.py, line 9", "VTPD"],
+            [exported("particles", EARLIER, "v = CreateExtractor('VTPD', particlesxdmf)", "v.Writer.FileName = 'v_{timestep:06d}.vtpd'")]),
     drawing("files outside of the images' folder", 2, ["a.py", "../../table.csv", "outside"],
             [script("t = CreateExtractor('CSV', particles)", "t.Writer.FileName = '../../table.csv'")]),
     drawing("a name that is none", 3, ["a.py, line 3", "Shwo"], [script("Shwo(particles)")]),
@@ -168,6 +170,9 @@ SCRIPTS = [
     drawing("no end", 3, ["a.py", "insitu.time_limit"],
             [script("def catalyst_execute(info):", "    while True: pass")], "insitu.time_limit=2 s"),
     drawing("an end of its own", 3, ["a.py, line 5", "os._exit"], [script("import os", "def catalyst_execute(info):", "    os._exit(0)")]),
+    drawing("a live view that nobody watches", 0, [],
+            [script("from paraview import catalyst", "options = catalyst.Options()", "options.EnableCatalystLive = 1",
+                    "options.CatalystLiveURL = 'localhost:22222'")]),
     drawing("another working folder", 3, ["a.py", "working folder"], [script("import os", "def catalyst_execute(info):", "    os.chdir('/')")]),
 ]
 # Readers of what earlier runs saved, under whatever name: they show this run.

@@ -22,6 +22,8 @@ class Findings:
         """Counts `outcome`, a tuple of words. With `problems`, copies the folder `files` and writes what there is to tell."""
         with self.lock:
             self.outcomes[outcome] += 1
+            if (total := sum(self.outcomes.values())) % 100 == 0:
+                print(f"{total} cases, {len(self.found)} findings", flush=True)
             if not problems:
                 return
             self.found.append((case, problems))
@@ -31,6 +33,13 @@ class Findings:
             shutil.copytree(files, place, dirs_exist_ok=True, symlinks=True)
         place.mkdir(parents=True, exist_ok=True)
         (place / "finding.json").write_text(json.dumps({"problems": problems, **details}, indent=1, default=str) + "\n", encoding="utf-8")
+
+    def of_each(self, pool, study_one, numbers):
+        """Has the cases studied; Ctrl-C ends that early."""
+        try:
+            list(pool.map(study_one, numbers))
+        except KeyboardInterrupt:
+            pool.shutdown(cancel_futures=True)
 
     def note(self, message):
         """Counts what a run that failed said, whatever its numbers."""

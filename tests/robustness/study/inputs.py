@@ -171,5 +171,5 @@ def study(program, findings, seed, first, count, pool):
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 
-    list(pool.map(one, range(first, first + count)))
+    findings.of_each(pool, one, range(first, first + count))
     return findings.report("Mutated inputs")

@@ -6,6 +6,7 @@ import shutil
 import signal
 import sys
 import tempfile
+import threading
 import time
 import xml.etree.ElementTree
 
@@ -38,6 +39,7 @@ class Undisturbed:
 
     def __init__(self, program, files, folder):
         self.program, self.files, self.folder, self.seconds = program, files, folder, {}
+        self.lock = threading.Lock()
         self.name = folder.name
         self.found = self.measure(1)
 
@@ -51,9 +53,10 @@ class Undisturbed:
         return found_by(folder / "out")
 
     def duration(self, ranks):
-        if ranks not in self.seconds:
-            self.measure(ranks)
-        return self.seconds[ranks]
+        with self.lock:
+            if ranks not in self.seconds:
+                self.measure(ranks)
+            return self.seconds[ranks]
 
 
 def write(files, folder):
@@ -112,12 +115,12 @@ def study(program, findings, seed, first, count, pool):
                 else:
                     problems.append(f"the run that goes on ended with {again.status}: {again.errors.strip()}")
                 problems += [f"left over: {path.name}" for path in folder.rglob("*") if is_temporary(path.name)]
-                told = ("ended before" if not early else "from a checkpoint" if checkpoint else "from the beginning")
+                told = "ended before" if not early else "from a checkpoint" if checkpoint else "without a checkpoint"
                 details = {"signal": sent.name, "moment_s": moment, "ranks": ranks, "then": others, "checkpoint": checkpoint,
                            "killed": vars(killed), "again": vars(again)}
                 findings.add(f"case_{number:06d}", (scene.name, sent.name, told), problems, details, folder)
             finally:
                 shutil.rmtree(place, ignore_errors=True)
 
-        list(pool.map(one, range(first, first + count)))
+        findings.of_each(pool, one, range(first, first + count))
     return findings.report("Killed runs")
