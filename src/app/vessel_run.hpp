@@ -15,7 +15,7 @@
 
 namespace rhexis::app {
 
-class VesselRun : private RunBase {
+class VesselRun final : private RunBase {
  public:
   /// `coupling`: the network that the vessel is part of, which the configuration comes from.
   VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm,

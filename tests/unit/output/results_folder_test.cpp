@@ -247,7 +247,7 @@ TEST(ResultsFolder, ADamagedManifestIsRefusedWithItsName) {
       {"rhexis results 1\nfiles a\n", "an entry is"}};
   for (const auto& [text, reason] : damages) {
     const TemporaryDirectory directory;
-    once([&] { std::ofstream(directory / "manifest.txt") << text; });
+    once([&, &text = text] { std::ofstream(directory / "manifest.txt") << text; });
     const std::string message = refusal(directory.path());
     EXPECT_TRUE(contains(message, reason)) << message;
     EXPECT_TRUE(contains(message, "choose another folder with -o")) << message;
