@@ -112,7 +112,8 @@ void VesselRun::read_checkpoint() {
   std::int64_t step = 0;
   file.read(step_name, step, 0);
   first_step_ = step;
-  if (first_step_ >= c_.steps) {
+  // From the last step a run goes on that was killed before it had stored and drawn that step.
+  if (first_step_ > c_.steps) {
     file.refuse(fmt::format("the checkpoint is of step {}, this run ends at step {}; raise time.end",
                             first_step_, c_.steps));
   }

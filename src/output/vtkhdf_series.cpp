@@ -4,7 +4,6 @@
 
 #include <bit>
 #include <fstream>
-#include <tuple>
 #include <utility>
 
 #include "core/error.hpp"
@@ -34,20 +33,28 @@ std::string_view bytes_of(const Number& value) {
 }
 
 /// Finds the numbers of steps in a file that was just laid out for `room` steps: NSteps, and behind it the
-/// extent of Values, now and at most (a dataspace message of one dimension). Returns where the first lies and
-/// the bytes from there to the end of the last.
-std::pair<std::int64_t, std::string> find_step_counts(const std::filesystem::path& path, std::int64_t room) {
+/// extent of Values, now and at most (a dataspace message of one dimension), and the bytes that Values has (a
+/// layout message, of contiguous data), which HDF5 1.14 wants to agree with the extent.
+VtkHdfSeries::StepCounts find_step_counts(const std::filesystem::path& path, std::int64_t room) {
   constexpr std::size_t page = 4096;
   std::string beginning(page, '\0');
   std::ifstream(path, std::ios::binary).read(beginning.data(), page);
   const std::string extent =
       std::string("\1\1\1\0\0\0\0\0", 8) + std::string(bytes_of(room)) + std::string(bytes_of(room));
+  const std::string contiguous("\3\1", 2);  // version and class of the layout; then come address and size
+  const std::int64_t size = room * static_cast<std::int64_t>(sizeof(double));
   const std::size_t first = beginning.find(bytes_of(not_yet));
-  const std::size_t last = beginning.find(extent, first);
-  if (first == std::string::npos || last == std::string::npos)
+  const std::size_t dataspace = beginning.find(extent, first);
+  std::size_t layout = beginning.find(contiguous, dataspace);
+  while (layout < page && beginning.compare(layout + 10, sizeof(size), bytes_of(size)) != 0)
+    layout = beginning.find(contiguous, layout + 1);
+  if (layout >= page)
     throw RunError(
         fmt::format("{}: HDF5 has not put the numbers of steps into the first page", path.string()));
-  return {static_cast<std::int64_t>(first), beginning.substr(first, last + extent.size() - first)};
+  const std::size_t end = layout + 10 + sizeof(size);
+  return {.at = static_cast<std::int64_t>(first),
+          .bytes = beginning.substr(first, end - first),
+          .extent = dataspace + 8 - first};
 }
 
 /// Creates and fills a table of integers, [rows] or [rows, columns].
@@ -79,8 +86,8 @@ VtkHdfSeries::VtkHdfSeries(const SeriesPlan& plan, const SeriesLayout& layout, S
   file().create(
       datasets, [&](Hdf5File& h5) { lay_out(h5, plan); },
       [&](const std::filesystem::path& path) {
-        std::tie(counts_at_, counts_) = find_step_counts(path, room_);
-        FileInPlace(path).write(counts_at_, counts_of(0));
+        counts_ = find_step_counts(path, room_);
+        FileInPlace(path).write(counts_.at, counts_of(0));
       });
   parallel::together<RunError>(communicator, [&] {
     numbers_at_[times] = file().offset_of(times);
@@ -207,21 +214,22 @@ std::function<void()> VtkHdfSeries::prepare(const Moment& moment, bool, std::siz
   write(annotation_dataset(step_number), std::int64_t{moment.step});
   for (const Annotation& note : moment.annotations)
     write(annotation_dataset(std::string(note.name)), note.value);
-  return [path = file().path(), at = counts_at_, bytes = counts_of(entry + 1)] {
+  return [path = file().path(), at = counts_.at, bytes = counts_of(entry + 1)] {
     FileInPlace(path).write(at, bytes);
   };
 }
 
 void VtkHdfSeries::unlist(std::size_t entry) {
-  FileInPlace(file().path()).write(counts_at_, counts_of(entry));
+  FileInPlace(file().path()).write(counts_.at, counts_of(entry));
 }
 
 std::string VtkHdfSeries::counts_of(std::size_t steps) const {
   const auto number = static_cast<std::int64_t>(steps);
-  std::string bytes = counts_;
-  for (const std::size_t at :
-       {std::size_t{0}, bytes.size() - 2 * sizeof(number), bytes.size() - sizeof(number)})
+  const std::int64_t size = number * static_cast<std::int64_t>(sizeof(double));
+  std::string bytes = counts_.bytes;
+  for (const std::size_t at : {std::size_t{0}, counts_.extent, counts_.extent + sizeof(number)})
     bytes.replace(at, sizeof(number), bytes_of(number));
+  bytes.replace(bytes.size() - sizeof(size), sizeof(size), bytes_of(size));
   return bytes;
 }
 

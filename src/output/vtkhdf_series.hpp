@@ -14,7 +14,7 @@
 /// and the attributes `title` and `version` of the file. Steps are stored in the order of writing. What is
 /// behind the last step means nothing yet.
 ///
-/// What lists a step is NSteps, and the extent of Values, which readers take to be the same number. Both lie
+/// What lists a step is NSteps, and the extent and size of Values, which readers take to agree. All lie
 /// in the file's first page and are written last, by one write beside HDF5 (which would rewrite whole
 /// headers, and lock the file against readers): a program is not killed within a page, so that they count
 /// complete steps, whenever it dies. A reader that opens the file just then may see one number and not yet
@@ -33,6 +33,13 @@ class VtkHdfSeries : public FieldSeries {
  public:
   VtkHdfSeries(const SeriesPlan& plan, const SeriesLayout& layout, SeriesKind kind,
                std::vector<StoredField> fields, parallel::Communicator communicator);
+
+  /// The part of the file's first page in which the number of steps lies several times.
+  struct StepCounts {
+    std::int64_t at = 0;     ///< bytes from the beginning of the file: NSteps
+    std::string bytes;       ///< from there to the size of Values, its last number
+    std::size_t extent = 0;  ///< within `bytes`: the extent of Values, now and at most
+  };
 
  protected:
   Place fixed_positions() const override;
@@ -55,10 +62,8 @@ class VtkHdfSeries : public FieldSeries {
   std::int64_t room_;                     ///< steps there is room for
   std::vector<std::string> annotations_;  ///< and `step`
   std::map<std::string, std::int64_t>
-      numbers_at_;  ///< where data sets of one number a step begin in the file
-  /// Of the root: where NSteps lies, and the bytes from there to the end of the extent of Values.
-  std::int64_t counts_at_ = 0;
-  std::string counts_;
+      numbers_at_;     ///< where data sets of one number a step begin in the file
+  StepCounts counts_;  ///< the root's alone
 };
 
 }  // namespace rhexis::output

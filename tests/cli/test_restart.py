@@ -70,6 +70,17 @@ class Restart(VesselCase):
         jump = "the schedule had 178.5 kPa at step 150, and now has 150 kPa"
         self.assertEqual(self.record("other")["warnings"], [told, jump])
 
+    def test_the_checkpoint_of_the_last_step_ends_a_run_that_was_killed_there(self):
+        self.write(replaced("end", 'end = "50 us"'))
+        more = ("--set", "output.checkpoint_every=100")
+        self.assertEqual(self.rhexis("run", "vessel.toml", "-o", "out", *more).returncode, 0)
+        whole, history = self.record("out")["results"], self.history("out")
+        self.assertEqual(whole["steps"], 100)
+        ended = self.rhexis("run", "vessel.toml", "-o", "out", *more, "--restart", "out/checkpoints/step_000100.h5")
+        self.assertEqual(ended.returncode, 0, ended.stderr)
+        self.assertEqual(self.record("out")["results"], whole)
+        self.assertEqual(self.history("out"), history)
+
     def test_an_interrupt_in_the_last_step_is_too_late(self):
         if "Catalyst" not in self.rhexis("--version").stdout:
             self.skipTest("built without ParaView")
