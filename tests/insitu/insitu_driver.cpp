@@ -48,7 +48,10 @@ void run(rhexis::insitu::Settings settings, const std::string& channels, int fra
   if (with_network) settings.network_fields = names_of(network.fields());
   if (const char* limit = std::getenv("DRIVER_TIME_LIMIT")) settings.time_limit_s = std::stod(limit);
   if (const char* live = std::getenv("DRIVER_LIVE")) settings.live = live;
-  settings.before_abort = [](const std::string& reason) { std::printf("record: %s\n", reason.c_str()); };
+  settings.before_abort = [](const std::string& reason) {
+    std::printf("record: %s\n", reason.c_str());
+    std::fflush(stdout);  // what comes next need not
+  };
   const auto pipeline = rhexis::insitu::load_pipeline(settings, world);
   if (world.is_root()) {
     std::printf(R"({"description": "%s", "seconds": %.3f})"

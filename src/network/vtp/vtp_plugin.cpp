@@ -17,6 +17,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <new>
 
 #include "network/vtp/child_process.hpp"
 #include "network/vtp/interface.hpp"
@@ -178,6 +179,8 @@ void read_here(const std::string& path, Lines& lines, std::string& problem) try 
   vtkPolyData* data = reader->GetOutput();
   if (problem.empty()) problem = data == nullptr ? "no PolyData" : check_offsets(data);
   if (problem.empty()) copy_lines(data, lines);
+} catch (const std::bad_alloc&) {  // what a newer VTK throws where an older one crashes
+  problem = "VTK finds no memory for it: the numbers in the file's tags do not fit its data";
 } catch (const std::exception& error) {
   problem = error.what();
 }

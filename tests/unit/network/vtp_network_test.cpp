@@ -144,8 +144,7 @@ TEST_F(VtpNetwork, RefusesWhatCrashesVtk) {
   for (const std::string number : {"-1", "-2147483648"})
     refused(with("NumberOfPoints=\"2\"", "NumberOfPoints=\"" + number + "\""), {"n.vtp", "VTK"});
   for (const std::string number : {"4294967296", "99999999999999"})
-    refused(with("NumberOfVerts=\"0\"", "NumberOfVerts=\"" + number + "\""),
-            {"n.vtp", "VTK crashed on it", "tags"});
+    refused(with("NumberOfVerts=\"0\"", "NumberOfVerts=\"" + number + "\""), {"n.vtp", "VTK", "tags"});
   refused(with("Name=\"connectivity\" format=\"ascii\"", "Name=\"connectivity\" format=\"binary\""),
           {"n.vtp"});
 }
