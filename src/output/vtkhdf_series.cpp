@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cstring>
 #include <fstream>
 #include <utility>
 
@@ -33,8 +34,8 @@ std::string_view bytes_of(const Number& value) {
 }
 
 /// Finds the numbers of steps in a file that was just laid out for `room` steps: NSteps, and behind it the
-/// extent of Values, now and at most (a dataspace message of one dimension), and the bytes that Values has (a
-/// layout message, of contiguous data), which HDF5 1.14 wants to agree with the extent.
+/// extent of Values, now and at most (a dataspace message of one dimension), and the address of its values (a
+/// layout message, of contiguous data).
 VtkHdfSeries::StepCounts find_step_counts(const std::filesystem::path& path, std::int64_t room) {
   constexpr std::size_t page = 4096;
   std::string beginning(page, '\0');
@@ -43,18 +44,21 @@ VtkHdfSeries::StepCounts find_step_counts(const std::filesystem::path& path, std
       std::string("\1\1\1\0\0\0\0\0", 8) + std::string(bytes_of(room)) + std::string(bytes_of(room));
   const std::string contiguous("\3\1", 2);  // version and class of the layout; then come address and size
   const std::int64_t size = room * static_cast<std::int64_t>(sizeof(double));
+  std::int64_t address = 0;
   const std::size_t first = beginning.find(bytes_of(not_yet));
   const std::size_t dataspace = beginning.find(extent, first);
   std::size_t layout = beginning.find(contiguous, dataspace);
-  while (layout < page && beginning.compare(layout + 10, sizeof(size), bytes_of(size)) != 0)
+  while (layout < page && beginning.compare(layout + 2 + sizeof(address), sizeof(size), bytes_of(size)) != 0)
     layout = beginning.find(contiguous, layout + 1);
   if (layout >= page)
     throw RunError(
         fmt::format("{}: HDF5 has not put the numbers of steps into the first page", path.string()));
-  const std::size_t end = layout + 10 + sizeof(size);
+  const std::size_t end = layout + 2 + sizeof(address);
+  std::memcpy(&address, beginning.data() + end - sizeof(address), sizeof(address));
   return {.at = static_cast<std::int64_t>(first),
           .bytes = beginning.substr(first, end - first),
-          .extent = dataspace + 8 - first};
+          .extent = dataspace + 8 - first,
+          .values_at = address};
 }
 
 /// Creates and fills a table of integers, [rows] or [rows, columns].
@@ -90,7 +94,7 @@ VtkHdfSeries::VtkHdfSeries(const SeriesPlan& plan, const SeriesLayout& layout, S
         FileInPlace(path).write(counts_.at, counts_of(0));
       });
   parallel::together<RunError>(communicator, [&] {
-    numbers_at_[times] = file().offset_of(times);
+    numbers_at_[times] = counts_.values_at;
     for (const std::string& name : annotations_)
       numbers_at_[annotation_dataset(name)] = file().offset_of(annotation_dataset(name));
   });
@@ -225,11 +229,12 @@ void VtkHdfSeries::unlist(std::size_t entry) {
 
 std::string VtkHdfSeries::counts_of(std::size_t steps) const {
   const auto number = static_cast<std::int64_t>(steps);
-  const std::int64_t size = number * static_cast<std::int64_t>(sizeof(double));
+  // HDF5 1.14 refuses data of no size that have an address.
+  const std::int64_t address = steps > 0 ? counts_.values_at : -1;
   std::string bytes = counts_.bytes;
   for (const std::size_t at : {std::size_t{0}, counts_.extent, counts_.extent + sizeof(number)})
     bytes.replace(at, sizeof(number), bytes_of(number));
-  bytes.replace(bytes.size() - sizeof(size), sizeof(size), bytes_of(size));
+  bytes.replace(bytes.size() - sizeof(address), sizeof(address), bytes_of(address));
   return bytes;
 }
 

@@ -14,11 +14,11 @@
 /// and the attributes `title` and `version` of the file. Steps are stored in the order of writing. What is
 /// behind the last step means nothing yet.
 ///
-/// What lists a step is NSteps, and the extent and size of Values, which readers take to agree. All lie
-/// in the file's first page and are written last, by one write beside HDF5 (which would rewrite whole
-/// headers, and lock the file against readers): a program is not killed within a page, so that they count
-/// complete steps, whenever it dies. A reader that opens the file just then may see one number and not yet
-/// the other.
+/// What lists a step is NSteps, and the extent of Values (with an address once there are any), which readers
+/// take to agree. All lie in the file's first page and are written last, by one write beside HDF5 (which
+/// would rewrite whole headers, and lock the file against readers): a program is not killed within a page, so
+/// that they count complete steps, whenever it dies. A reader that opens the file just then may see one
+/// number and not yet the other.
 #pragma once
 
 #include <map>
@@ -36,9 +36,10 @@ class VtkHdfSeries : public FieldSeries {
 
   /// The part of the file's first page in which the number of steps lies several times.
   struct StepCounts {
-    std::int64_t at = 0;     ///< bytes from the beginning of the file: NSteps
-    std::string bytes;       ///< from there to the size of Values, its last number
-    std::size_t extent = 0;  ///< within `bytes`: the extent of Values, now and at most
+    std::int64_t at = 0;         ///< bytes from the beginning of the file: NSteps
+    std::string bytes;           ///< from there to the address of Values, its last number
+    std::size_t extent = 0;      ///< within `bytes`: the extent of Values, now and at most
+    std::int64_t values_at = 0;  ///< bytes from the beginning of the file: Values
   };
 
  protected:
