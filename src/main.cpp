@@ -7,7 +7,7 @@
 
 int main(int argc, char** argv) {
   rhexis::app::open_missing_streams();
-  rhexis::app::ignore_signals_of_writing();
+  rhexis::app::prepare_signals();
   const rhexis::parallel::Session session(argc, argv);
   const auto world = rhexis::parallel::Communicator::world();
   const rhexis::app::Command command = rhexis::app::parse_command_line(argc, argv, world);

@@ -31,6 +31,8 @@ bool is_advance_notice(int signal) {
   return signal == SIGUSR1 || signal == SIGXCPU;
 }
 
+bool hangup_was_ignored = false;  ///< when the program started, as nohup has it
+
 // What the handler touches.
 std::atomic<int> first_signal = 0, guards = 0;
 std::array<std::atomic<int>, watched.size()> noted{};  ///< how often, while a guard lived
@@ -86,12 +88,12 @@ class Watch {
   /// Again where a library has put its own handlers in between.
   void catch_signals() {
     struct sigaction action = {};
-    action.sa_handler = note_signal;
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < watched.size(); ++i) {
-      const bool stays_ignored = watched[i] == SIGHUP && before_[i].sa_handler == SIG_IGN;
-      if (!stays_ignored) sigaction(watched[i], &action, nullptr);
+      const bool stays_ignored = watched[i] == SIGHUP && hangup_was_ignored;
+      action.sa_handler = stays_ignored ? SIG_IGN : note_signal;
+      sigaction(watched[i], &action, nullptr);
     }
   }
 
@@ -150,7 +152,10 @@ class Watch {
 
 }  // namespace
 
-void ignore_signals_of_writing() {
+void prepare_signals() {
+  struct sigaction hangup = {};
+  sigaction(SIGHUP, nullptr, &hangup);
+  hangup_was_ignored = hangup.sa_handler == SIG_IGN;
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -14,8 +14,8 @@
 namespace rhexis::app {
 
 /// Files beyond the limit of their size (SIGXFSZ) and closed pipes (SIGPIPE) become failures of the call
-/// that writes. At the program's start.
-void ignore_signals_of_writing();
+/// that writes; SIGHUP that is ignored stays so. At the program's start, before MPI, which changes signals.
+void prepare_signals();
 
 /// "SIGTERM".
 std::string signal_name(int signal);
