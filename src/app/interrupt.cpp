@@ -130,7 +130,7 @@ class Watch {
   [[noreturn]] void end_at_once(int signal) {
     if (writes_) {
       fail_records(interrupted_by(signal));
-      output::remove_temporaries(folder_);
+      output::end_temporaries(folder_);
     }
     say(interrupted_by(signal));
     _exit(128 + signal);

@@ -6,11 +6,14 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <climits>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <mutex>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -27,6 +30,12 @@ std::string& token() {
     return fmt::format("{:016x}", digits);
   }();
   return drawn;
+}
+
+/// Held while a temporary file is made, and for ever once there shall be no more.
+std::mutex& making() {
+  static std::mutex mutex;
+  return mutex;
 }
 
 }  // namespace
@@ -63,7 +72,16 @@ void remove_temporaries(const std::filesystem::path& folder) noexcept {
   }
 }
 
+void end_temporaries(const std::filesystem::path& folder) noexcept {
+  making().lock();
+  remove_temporaries(folder);
+  // HDF5 may have been about to open by name one that was made before.
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  remove_temporaries(folder);
+}
+
 std::filesystem::path temporary_beside(const std::filesystem::path& path) {
+  const std::lock_guard lock(making());
   for (;;) {
     std::filesystem::path name = temporary_name_beside(path);
     const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

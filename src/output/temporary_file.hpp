@@ -25,6 +25,10 @@ bool is_temporary(std::string_view name, std::string_view token);
 /// that ends at once. Does not throw.
 void remove_temporaries(const std::filesystem::path& folder) noexcept;
 
+/// The same for a program that is about to end while other threads write: whoever makes another waits for
+/// ever.
+void end_temporaries(const std::filesystem::path& folder) noexcept;
+
 /// Makes a new, empty file in the folder of `path` and returns its name. What is there already is never
 /// opened, and links are not followed (O_EXCL). Throws RunError that names `path` and the reason.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
