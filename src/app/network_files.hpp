@@ -8,7 +8,8 @@
 namespace rhexis::app {
 
 /// generations.csv, histograms.csv, screening.csv, risk_histograms.csv, vessels.csv (what there is of them),
-/// network.xdmf and .h5, network.vtkhdf, network.vtp. Collective. Throws InputError (a file in the way) and RunError.
+/// network.xdmf and .h5, network.vtkhdf, network.vtp. Collective. Throws InputError (a file in the way) and
+/// RunError.
 void write_network(const Configuration& c, NetworkSolution& solution, const output::ResultsFolder& folder,
                    parallel::Communicator comm);
 

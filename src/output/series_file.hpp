@@ -68,8 +68,8 @@ class SeriesFile {
   parallel::Communicator communicator_;
   std::unique_ptr<Hdf5File> file_;
   std::optional<FileIdentity> identity_;  ///< of the root: somebody may take the file away
-  std::vector<float> singles_;   ///< values on their way to the file, in the one precision
-  std::vector<double> doubles_;  ///< or the other
+  std::vector<float> singles_;            ///< values on their way to the file, in the one precision
+  std::vector<double> doubles_;           ///< or the other
 };
 
 /// The global numbers of this rank's points or cells, in the order of its values.
