@@ -34,7 +34,7 @@ class CascadeRun : private RunBase {
 
   Ending run() {
     if (!options_.restart.empty()) read_checkpoint();
-    // Of the input: told once, not by every event.
+    // What the input is warned of is told once, not by every event.
     const std::vector<std::string> warnings = std::exchange(c_.warnings, {});
     say_title(console_, c_);
     open_cascade_folder();

@@ -7,8 +7,8 @@
 
 namespace rhexis::app {
 
-/// Of the whole run, but for what depends on a checkpoint: checkpoints of a cascade's events, and of a run
-/// that restarts the files whose names depend on its first step (see files_of_steps).
+/// What the whole run does to its folder, but for what depends on a checkpoint: the checkpoints of a
+/// cascade's events, and the files of a restart whose names depend on its first step (see files_of_steps).
 output::FolderPlan folder_plan(const Configuration& c, const RunOptions& options);
 
 /// The series of particles of a run from `first_step`, without an ending: a restart leaves the series of the

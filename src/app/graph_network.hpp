@@ -14,7 +14,7 @@
 
 namespace rhexis::app {
 
-/// Of the files, or of the tree's rules, for the header.
+/// Describes the network's files, or the rules of its tree, for the header.
 std::string describe_source(const Configuration& c);
 
 /// Graph and conditions, read or materialised; the weight of blood is taken off the conditions' pressures.
@@ -26,7 +26,8 @@ network::BoundedGraph make_graph_network(const Configuration& c,
 void add_weight(const network::Graph& graph, const hemodynamics::Hydrostatic& hydrostatic,
                 std::vector<double>& pressure);
 
-/// Of every vessel by Eq. (9), m3/(s Pa); `haematocrit` [V], or empty: the inflowing blood's.
+/// Conductance of every vessel by Eq. (9), [V], m3/(s Pa); `haematocrit` [V], or empty: that of the inflowing
+/// blood.
 std::vector<double> conductances(const network::Graph& graph, const hemodynamics::Viscosity& viscosity,
                                  std::span<const double> haematocrit);
 
@@ -43,7 +44,7 @@ std::vector<std::uint32_t> widest_vessels(const network::Graph& graph, std::size
 /// Volume (m3) and wall surface (m2) of all lumens.
 std::array<double, 2> lumen_of(const network::Graph& graph);
 
-/// Of the fastest vessel; `haematocrit` as for conductances.
+/// The Reynolds number of the fastest vessel; `haematocrit` as for conductances.
 double highest_reynolds_number(const network::Graph& graph, const hemodynamics::GraphFlow& flow,
                                const hemodynamics::VesselMechanics& mechanics,
                                std::span<const double> haematocrit);

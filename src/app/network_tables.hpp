@@ -18,7 +18,7 @@ std::string generation_table(const hemodynamics::TreeStatistics& s);
 /// A row for each bin that is not empty: generation, kind, quantity, edges, vessels.
 std::string histogram_table(const hemodynamics::TreeStatistics& s);
 
-/// Of the vessels at highest risk; the solution has been screened.
+/// The table of the vessels at highest risk, as CSV; the solution has been screened.
 std::string screening_table(const NetworkSolution& solution);
 /// How many vessels of every generation have what risk.
 std::string risk_table(const screening::Screening& screening);
