@@ -1,6 +1,6 @@
 """A vessel of a network, coupled, as a user meets it: wrong input, load, restarts.
 
-Run by ctest as: test_coupled.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
+Run by ctest as: test_coupled.py RHEXIS MPIRUN...
 """
 
 import math

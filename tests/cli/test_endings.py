@@ -1,6 +1,6 @@
 """Every ending of a run leaves a true record: signals, a terminal or files that cannot be written, dead ranks.
 
-Run by ctest as: test_endings.py RHEXIS MPIRUN...   (with /usr/bin/python3)
+Run by ctest as: test_endings.py RHEXIS MPIRUN...
 """
 
 import os

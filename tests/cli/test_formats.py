@@ -1,6 +1,6 @@
 """Results as XDMF and as VTKHDF hold the same, also after a restart, on more than one rank and of networks.
 
-Run by ctest as: test_formats.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
+Run by ctest as: test_formats.py RHEXIS MPIRUN...
 """
 
 import sys

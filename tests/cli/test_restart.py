@@ -1,6 +1,6 @@
 """Interrupts, checkpoints, and restarts from them.
 
-Run by ctest as: test_restart.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
+Run by ctest as: test_restart.py RHEXIS MPIRUN...
 """
 
 import os

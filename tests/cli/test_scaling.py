@@ -137,7 +137,7 @@ class Study(unittest.TestCase):
 
     def study(self, *arguments, status=0):
         """The script in a process of its own, as a user starts it."""
-        result = subprocess.run(["/usr/bin/python3", SCRIPT, *map(str, arguments)], capture_output=True, text=True, timeout=60)
+        result = subprocess.run([sys.executable, SCRIPT, *map(str, arguments)], capture_output=True, text=True, timeout=60)
         self.assertEqual(result.returncode, status, result.stderr)
         return result
 

@@ -1,6 +1,6 @@
 """A vessel of a network that bleeds into it: closed form, windows, tiers, ranks.
 
-Run by ctest as: test_two_way.py RHEXIS MPIRUN...   (with /usr/bin/python3, which has h5py)
+Run by ctest as: test_two_way.py RHEXIS MPIRUN...
 """
 
 import json

@@ -48,7 +48,7 @@ class Afterwards(DriverTest):
             for command in (
                 [scripts / "pvpython_headless", scripts / "render_particles.py", folder / "particles.xdmf"],
                 [scripts / "make_movie.sh", folder / "images"],
-                ["/usr/bin/python3", scripts / "plot_history.py", folder / "history.csv"],
+                [sys.executable, scripts / "plot_history.py", folder / "history.csv"],
             ):
                 result = subprocess.run(command, env=ENVIRONMENT, capture_output=True, text=True, timeout=50)
                 self.assertEqual((result.returncode, complaints(result.stderr)), (0, ""), result.stdout)

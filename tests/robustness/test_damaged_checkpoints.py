@@ -1,7 +1,7 @@
 """Restarts from damaged checkpoints: refused with one line that names the file, or, where the damage hit nothing that is used,
 bit-identical to those from the undamaged one. robustness_study.py tries more, and more scenes.
 
-Run by ctest as: test_damaged_checkpoints.py RHEXIS [NUMBER [SEED]]   (with /usr/bin/python3, which has h5py)
+Run by ctest as: test_damaged_checkpoints.py RHEXIS [NUMBER [SEED]]
 """
 
 import os

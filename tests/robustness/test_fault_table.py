@@ -1,6 +1,6 @@
 """What people have met: each fault's case as a row, with how the run must end, what it must say, and that it leaves files alone.
 
-Run by ctest as: test_fault_table.py RHEXIS   (with /usr/bin/python3, which has h5py)
+Run by ctest as: test_fault_table.py RHEXIS
 """
 
 import csv

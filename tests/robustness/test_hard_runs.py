@@ -1,6 +1,6 @@
 """Whole runs at the edge: time steps beyond the stable one, and pressures from 1 Pa to 1 GPa.
 
-Run by ctest as: test_hard_runs.py RHEXIS   (with /usr/bin/python3, which has h5py)
+Run by ctest as: test_hard_runs.py RHEXIS
 """
 
 import csv

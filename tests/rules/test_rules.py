@@ -65,9 +65,13 @@ class Rules(unittest.TestCase):
             self.assertRegex(text, re.escape(equation), equation)
 
     def test_files_named_in_the_docs_exist(self):
-        for doc in (ROOT / "README.md", SRC / "README.md", *(ROOT / "docs").glob("*.md")):
+        for doc in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", SRC / "README.md", *(ROOT / "docs").glob("*.md")):
             for link in re.findall(r"\]\(([^)#:]+)\)", doc.read_text()):
                 self.assertTrue((doc.parent / link).exists(), f"{doc}: {link}")
+
+    def test_the_citation_names_the_version(self):
+        version = re.search(r"project\(rhexis VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+        self.assertIn(f"\nversion: {version}\n", (ROOT / "CITATION.cff").read_text())
 
     def test_every_test_has_a_time_limit(self):
         listed = subprocess.run([CTEST, "--show-only=json-v1"], cwd=BUILD, capture_output=True, check=True).stdout
