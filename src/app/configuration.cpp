@@ -24,6 +24,7 @@
 #include "input/wording.hpp"
 #include "network/network_file.hpp"
 #include "network/vtp_network.hpp"
+#include "parallel/node.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/pressure_layer.hpp"
 #include "peridynamics/schedule.hpp"
@@ -64,6 +65,23 @@ std::string read_on_root(const std::string& file, parallel::Communicator comm) {
   std::string text;
   parallel::on_root<InputError>(comm, [&] { text = input::read_text(file); });
   return comm.broadcast(text);
+}
+
+/// Memory that reading `text` takes, bytes. Throws InputError where there is not as much.
+double reading_bytes(const std::string& text, const std::string& file, parallel::Communicator comm) {
+  constexpr double of_a_character = 32;  // measured on a table of a million points
+  const double bytes = of_a_character * static_cast<double>(text.size());
+  const MemoryLimit limit = available_memory();
+  const double here = limit.of_machine ? parallel::ranks_of_node(comm) : 1;
+  parallel::together<InputError>(comm, [&] {
+    if (here * bytes <= limit.bytes) return;
+    throw InputError(fmt::format(
+        "{}: to read its {:.3g} MB of text takes {:.3g} GB of memory, and {:.3g} GB are left by {}; a long "
+        "table belongs in a CSV file (load.table_file)",
+        file, 1e-6 * static_cast<double>(text.size()), 1e-9 * here * bytes, 1e-9 * limit.bytes,
+        limit.source));
+  });
+  return bytes;
 }
 
 void settle_time_step(Configuration& c) {
@@ -331,6 +349,7 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
                                  parallel::Communicator comm, Configuration c) {
   c.file = file;
   const std::string text = read_on_root(file, comm);
+  c.input_bytes = reading_bytes(text, file, comm);
   parallel::together(comm, [&] {  // a rank may lack the database of units
     const input::Document document = input::parse_document(text, file, overrides);
     c.resolved = input::read(document, declare_model(c, document));

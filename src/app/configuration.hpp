@@ -53,6 +53,8 @@ struct Configuration {
   peridynamics::WallMemory wall_memory;  ///< of all ranks together; of an ensemble, on each rank
   peridynamics::SharedFamilies families;
 
+  double input_bytes = 0;  ///< memory that reading the input file takes
+
   double stable_time_step = 0;  ///< s
   double time_step = 0;         ///< s
   long steps = 0;

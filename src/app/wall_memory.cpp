@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "app/console.hpp"
+#include "app/version.hpp"
 #include "core/format.hpp"
 #include "core/memory.hpp"
 #include "parallel/node.hpp"
@@ -34,6 +35,9 @@ WallMemory memory_of(const Configuration& c, const peridynamics::Parameters& p, 
   }
   return memory;
 }
+
+/// What ParaView takes to read scripts, bytes; measured with 5.11 and 5.13.
+constexpr double paraview_bytes = 300e6;
 
 double needed(const Configuration& c, const WallMemory& memory) {
   return c.checks ? std::max(memory.run, memory.check) : memory.run;
@@ -106,10 +110,14 @@ void settle_memory(Configuration& c, parallel::Communicator comm) {
   c.wall_memory = memory_of(c, c.vessel, ranks);
   const peridynamics::WallSize& size = c.wall_size;
   if (c.say && c.checks) {
-    const std::string check = megabytes(c.wall_memory.check);
+    const bool reads_scripts = c.insitu.enabled && !c.insitu.scripts.empty() && !paraview_version().empty();
     c.say("memory",
-          fmt::format("about {} for the wall, {}; this check takes up to {}", megabytes(c.wall_memory.run),
-                      c.is_ensemble() ? "on each rank" : "all ranks together", check));
+          fmt::format("about {} for the wall, {}; this check takes up to {}{}", megabytes(c.wall_memory.run),
+                      c.is_ensemble() ? "on each rank" : "all ranks together",
+                      megabytes(std::max(c.wall_memory.check, c.input_bytes)),
+                      reads_scripts ? fmt::format(", and {} for ParaView to read the scripts",
+                                                  megabytes(paraview_bytes))
+                                    : ""));
   }
   const MemoryLimit limit = available_memory();
   // Of those who share the limit.

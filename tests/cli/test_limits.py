@@ -129,6 +129,18 @@ class Limits(VesselCase):
                 self.assertEqual(status, 0, said)
                 self.assert_bound(run, peak - empty["run"], "run")
 
+    def test_a_long_table_in_the_input_counts(self):
+        self.write(FINE, "fine.toml")
+        small = ["--set", "discretisation.spacing=250 um", "--set", "boundary.ends=free", *QUICK]
+        status, said, empty = self.child("check", "fine.toml", *small)
+        self.assertEqual(status, 0, said)
+        rows = "\n".join(f'  ["{i} us", "{i % 1000} kPa"],' for i in range(100000))
+        table = f'schedule = "table"\ntable = [\n{rows}\n]'
+        self.write(FINE.replace('pressure = "238 kPa"\nramp_time = "0.1 ms"', table), "fine.toml")
+        status, said, peak = self.child("check", "fine.toml", *small)
+        self.assertEqual(status, 0, said)
+        self.assert_bound(1e6 * float(re.search(r"up to (\d+) MB", said).group(1)), peak - empty, "check")
+
     def assert_bound(self, told, taken, what):
         noise = 6e6  # of libraries, and of a wall that is not quite none
         self.assertLessEqual(taken, told + noise, what)
