@@ -12,12 +12,12 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "parallel/together.hpp"
-#include "peridynamics/body.hpp"
-#include "peridynamics/elastic_error.hpp"
-#include "peridynamics/linear_limit.hpp"
-#include "peridynamics/schedule.hpp"
-#include "peridynamics/strength.hpp"
-#include "peridynamics/surface_correction.hpp"
+#include "peridynamics/bonds/surface_correction.hpp"
+#include "peridynamics/engine/body.hpp"
+#include "peridynamics/laws/strength.hpp"
+#include "peridynamics/loads/schedule.hpp"
+#include "peridynamics/stability/linear_limit.hpp"
+#include "peridynamics/statics/elastic_error.hpp"
 
 namespace rhexis::app {
 namespace {

@@ -16,8 +16,8 @@
 #include "network/parameters.hpp"
 #include "output/parameters.hpp"
 #include "parallel/communicator.hpp"
-#include "peridynamics/bond_family.hpp"
-#include "peridynamics/memory.hpp"
+#include "peridynamics/bonds/bond_family.hpp"
+#include "peridynamics/engine/memory.hpp"
 #include "peridynamics/parameters.hpp"
 #include "screening/parameters.hpp"
 

@@ -14,7 +14,7 @@
 #include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/viscosity.hpp"
 #include "parallel/together.hpp"
-#include "peridynamics/opening.hpp"
+#include "peridynamics/monitors/opening.hpp"
 
 namespace rhexis::app {
 

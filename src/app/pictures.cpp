@@ -8,7 +8,7 @@
 #include "hemodynamics/vessel_lines.hpp"
 #include "input/wording.hpp"
 #include "parallel/together.hpp"
-#include "peridynamics/particle_source.hpp"
+#include "peridynamics/monitors/particle_source.hpp"
 
 namespace rhexis::app {
 namespace {

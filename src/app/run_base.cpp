@@ -16,7 +16,7 @@
 #include "output/temporary_file.hpp"
 #include "parallel/link.hpp"
 #include "parallel/together.hpp"
-#include "peridynamics/bond_kernel.hpp"
+#include "peridynamics/engine/bond_kernel.hpp"
 
 namespace rhexis::app {
 

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "input/catalogue.hpp"
-#include "peridynamics/particle_source.hpp"
+#include "peridynamics/monitors/particle_source.hpp"
 
 namespace rhexis::app {
 namespace {

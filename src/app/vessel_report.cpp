@@ -3,8 +3,8 @@
 
 #include "app/vessel_run.hpp"
 #include "core/format.hpp"
-#include "peridynamics/schedule.hpp"
-#include "peridynamics/strength.hpp"
+#include "peridynamics/laws/strength.hpp"
+#include "peridynamics/loads/schedule.hpp"
 
 namespace rhexis::app {
 

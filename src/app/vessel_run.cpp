@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
-#include "peridynamics/schedule.hpp"
+#include "peridynamics/loads/schedule.hpp"
 
 namespace rhexis::app {
 namespace {

@@ -9,9 +9,9 @@
 #include "output/checkpoint.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
-#include "peridynamics/body.hpp"
-#include "peridynamics/opening.hpp"
-#include "peridynamics/particle_source.hpp"
+#include "peridynamics/engine/body.hpp"
+#include "peridynamics/monitors/opening.hpp"
+#include "peridynamics/monitors/particle_source.hpp"
 
 namespace rhexis::app {
 

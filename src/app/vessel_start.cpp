@@ -7,7 +7,7 @@
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "peridynamics/equilibrium.hpp"
+#include "peridynamics/statics/equilibrium.hpp"
 
 namespace rhexis::app {
 

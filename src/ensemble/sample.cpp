@@ -4,10 +4,10 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "peridynamics/body.hpp"
-#include "peridynamics/schedule.hpp"
-#include "peridynamics/surface_correction.hpp"
-#include "peridynamics/time_steps.hpp"
+#include "peridynamics/bonds/surface_correction.hpp"
+#include "peridynamics/engine/body.hpp"
+#include "peridynamics/loads/schedule.hpp"
+#include "peridynamics/stability/time_steps.hpp"
 
 namespace rhexis::ensemble {
 

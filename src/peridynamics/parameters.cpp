@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "peridynamics/schedule.hpp"
-#include "peridynamics/strength.hpp"
+#include "peridynamics/laws/strength.hpp"
+#include "peridynamics/loads/schedule.hpp"
 
 namespace rhexis::peridynamics {
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/parameter.hpp"
-#include "peridynamics/heterogeneity_parameters.hpp"
-#include "peridynamics/law_parameters.hpp"
+#include "peridynamics/geometry/heterogeneity_parameters.hpp"
+#include "peridynamics/laws/law_parameters.hpp"
 
 namespace rhexis::peridynamics {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "bench/peak.hpp"
-#include "peridynamics/bond_kernel.hpp"
-#include "peridynamics/materials/pmb.hpp"
+#include "peridynamics/engine/bond_kernel.hpp"
+#include "peridynamics/laws/pmb.hpp"
 
 namespace rhexis::bench {
 namespace {

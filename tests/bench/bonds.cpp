@@ -13,7 +13,7 @@
 
 #include "bench/bond_arithmetic.hpp"
 #include "bench/cases.hpp"
-#include "peridynamics/bond_kernel.hpp"
+#include "peridynamics/engine/bond_kernel.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::bench {

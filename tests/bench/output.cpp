@@ -14,8 +14,8 @@
 #include "bench/cases.hpp"
 #include "output/checkpoint.hpp"
 #include "output/point_series.hpp"
-#include "peridynamics/bond_kernel.hpp"
-#include "peridynamics/particle_source.hpp"
+#include "peridynamics/engine/bond_kernel.hpp"
+#include "peridynamics/monitors/particle_source.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::bench {

@@ -5,7 +5,7 @@
 #include <map>
 #include <numbers>
 
-#include "peridynamics/equilibrium.hpp"
+#include "peridynamics/statics/equilibrium.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::verification {

@@ -12,7 +12,7 @@
 
 #include "convergence/studies.hpp"
 #include "parallel/communicator.hpp"
-#include "peridynamics/elastic_error.hpp"
+#include "peridynamics/statics/elastic_error.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::verification {

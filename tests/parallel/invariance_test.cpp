@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "peridynamics/equilibrium.hpp"
-#include "peridynamics/opening.hpp"
+#include "peridynamics/monitors/opening.hpp"
+#include "peridynamics/statics/equilibrium.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

@@ -2,7 +2,7 @@
 // noticed.
 #include <gtest/gtest.h>
 
-#include "peridynamics/linear_limit.hpp"
+#include "peridynamics/stability/linear_limit.hpp"
 #include "robustness/small_tubes.hpp"
 
 namespace rhexis::peridynamics {

@@ -30,6 +30,21 @@ MAY_INCLUDE = {
     "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "screening", "coupling", "ensemble", "output", "insitu"},
 }
 
+# Folder -> its rooms -> rooms of the same folder that they may include, besides themselves and the files outside any room,
+# which all may include and which may include all.
+ROOMS = {
+    "peridynamics": {
+        "geometry": set(),
+        "bonds": {"geometry"},
+        "laws": set(),
+        "loads": {"geometry"},
+        "engine": {"bonds", "geometry", "laws", "loads"},
+        "stability": {"bonds", "engine", "geometry", "laws"},
+        "monitors": {"bonds", "engine", "geometry", "loads"},
+        "statics": {"bonds", "engine", "geometry", "laws", "stability"},
+    },
+}
+
 
 def sources():
     return [p for p in SRC.rglob("*") if p.suffix in (".hpp", ".cpp", ".in")]
@@ -45,11 +60,21 @@ class Rules(unittest.TestCase):
                 allowed = MAY_INCLUDE[folder] | {folder, "core"}
                 self.assertIn(included, allowed, f"{path} includes {included}/")
 
+    def test_includes_between_rooms_go_downwards(self):
+        for folder, rooms in ROOMS.items():
+            self.assertEqual(set(rooms), {p.relative_to(SRC / folder).parts[0] for p in sources() if p.parent.parent == SRC / folder}, folder)
+            for room, allowed in rooms.items():
+                for path in (SRC / folder / room).rglob("*.[hc]pp"):
+                    for included in re.findall(rf'#include "{folder}/([^"/]+)/[^"]*"', path.read_text()):
+                        self.assertIn(included, allowed | {room}, f"{path} includes {folder}/{included}/")
+
     def test_include_table_is_documented(self):
         text = (SRC / "README.md").read_text()
-        for folder, allowed in MAY_INCLUDE.items():
-            listed = ", ".join(f"`{name}`" for name in sorted(allowed)) or "-"
-            self.assertIn(f"| `{folder}` | {listed} |", text)
+        tables = [MAY_INCLUDE, *({f"{folder}/{room}": allowed for room, allowed in rooms.items()} for folder, rooms in ROOMS.items())]
+        for table in tables:
+            for folder, allowed in table.items():
+                listed = ", ".join(f"`{name}`" for name in sorted(allowed)) or "-"
+                self.assertIn(f"| `{folder}` | {listed} |", text)
 
     def test_mpi_and_openmp_stay_in_parallel(self):
         for path in sources():

@@ -5,8 +5,8 @@
 
 #include <iostream>
 
-#include "peridynamics/elastic_error.hpp"
-#include "peridynamics/time_steps.hpp"
+#include "peridynamics/stability/time_steps.hpp"
+#include "peridynamics/statics/elastic_error.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::test {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
-#include "peridynamics/body.hpp"
-#include "peridynamics/materials/pmb.hpp"
+#include "peridynamics/bonds/surface_correction.hpp"
+#include "peridynamics/engine/body.hpp"
+#include "peridynamics/laws/pmb.hpp"
 #include "peridynamics/parameters.hpp"
-#include "peridynamics/surface_correction.hpp"
 
 namespace rhexis::test {
 

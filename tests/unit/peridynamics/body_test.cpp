@@ -1,5 +1,5 @@
 // The engine on bodies small enough for closed forms.
-#include "peridynamics/body.hpp"
+#include "peridynamics/engine/body.hpp"
 
 #include <gtest/gtest.h>
 

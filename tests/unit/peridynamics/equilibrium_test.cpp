@@ -1,5 +1,5 @@
 // Static equilibria against laws that hold for any discretisation.
-#include "peridynamics/equilibrium.hpp"
+#include "peridynamics/statics/equilibrium.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The stiffening bond alone, against its closed forms in long double.
-#include "peridynamics/materials/fung.hpp"
+#include "peridynamics/laws/fung.hpp"
 
 #include <gtest/gtest.h>
 

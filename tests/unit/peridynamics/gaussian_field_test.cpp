@@ -1,5 +1,5 @@
 // The random field against what it must be in closed form, over many seeds: each gives an independent field.
-#include "peridynamics/gaussian_field.hpp"
+#include "peridynamics/geometry/gaussian_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Walls whose properties differ from place to place, against sums over bonds that are done here once more.
-#include "peridynamics/heterogeneity.hpp"
+#include "peridynamics/geometry/heterogeneity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "peridynamics/time_steps.hpp"
+#include "peridynamics/stability/time_steps.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "peridynamics/bond_family.hpp"
-#include "peridynamics/materials/pmb.hpp"
+#include "peridynamics/bonds/bond_family.hpp"
+#include "peridynamics/laws/pmb.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "peridynamics/opening.hpp"
-#include "peridynamics/pressure_layer.hpp"
-#include "peridynamics/schedule.hpp"
+#include "peridynamics/loads/pressure_layer.hpp"
+#include "peridynamics/loads/schedule.hpp"
+#include "peridynamics/monitors/opening.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

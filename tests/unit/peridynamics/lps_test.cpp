@@ -1,9 +1,9 @@
 // The linear peridynamic solid: its moduli on the lattice, what it is at nu = 1/4, and its stable time step.
-#include "peridynamics/materials/lps.hpp"
+#include "peridynamics/laws/lps.hpp"
 
 #include <gtest/gtest.h>
 
-#include "peridynamics/time_steps.hpp"
+#include "peridynamics/stability/time_steps.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "peridynamics/bond_kernel.hpp"
-#include "peridynamics/materials/fung.hpp"
-#include "peridynamics/time_steps.hpp"
+#include "peridynamics/engine/bond_kernel.hpp"
+#include "peridynamics/laws/fung.hpp"
+#include "peridynamics/stability/time_steps.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

@@ -1,5 +1,5 @@
 // What there is of a wall, by formulas, against what is made of it.
-#include "peridynamics/memory.hpp"
+#include "peridynamics/engine/memory.hpp"
 
 #include <gtest/gtest.h>
 

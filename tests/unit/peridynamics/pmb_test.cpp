@@ -1,5 +1,5 @@
 // Eqs. (2)-(5): the law alone, against closed forms in long double.
-#include "peridynamics/materials/pmb.hpp"
+#include "peridynamics/laws/pmb.hpp"
 
 #include <gtest/gtest.h>
 

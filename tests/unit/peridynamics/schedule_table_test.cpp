@@ -1,12 +1,12 @@
 // Schedules by table: from files, repeated, against closed forms.
-#include "peridynamics/schedule_table.hpp"
+#include "peridynamics/loads/schedule_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.hpp"
-#include "peridynamics/schedule.hpp"
+#include "peridynamics/loads/schedule.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "peridynamics/body.hpp"
+#include "peridynamics/engine/body.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

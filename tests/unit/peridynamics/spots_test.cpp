@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "peridynamics/opening.hpp"
+#include "peridynamics/monitors/opening.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

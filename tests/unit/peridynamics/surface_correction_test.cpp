@@ -1,4 +1,4 @@
-#include "peridynamics/surface_correction.hpp"
+#include "peridynamics/bonds/surface_correction.hpp"
 
 #include <gtest/gtest.h>
 

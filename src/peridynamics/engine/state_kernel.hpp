@@ -1,0 +1,46 @@
+/// The inner loop that a state-based law runs before the forces' (bond_kernel.hpp): extensions of each
+/// particle's family. Each end of a bond evaluates it for itself and breaks it here, in the same step.
+#pragma once
+
+#include "peridynamics/engine/bond_kernel.hpp"
+
+namespace rhexis::peridynamics {
+
+/// Sums over each row's family of w V_i V_j e / spacing^7.
+template <class Real>
+struct ExtensionSums {
+  alignas(64) Real intact[parallel::block_rows];
+  alignas(64) Real lost[parallel::block_rows];  ///< of bonds that broke now
+  int broken = 0;                               ///< directed bonds that broke now
+};
+
+/// Breaks what is stretched too far, then sums the extensions of what is left.
+template <bool heterogeneous, bool wrapped, class Law, class Real>
+HWY_INLINE void sum_extensions(const Law law, const BlockView<Real>& block, ExtensionSums<Real>& sums) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<Real, parallel::block_rows> d;
+  using V = hn::Vec<decltype(d)>;
+  for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
+    const detail::Ends<wrapped, decltype(d), Real> ends(d, block, lane);
+    const detail::BreakingTest<heterogeneous, decltype(d), Real> test(d, block, lane);
+    V intact = hn::Zero(d), lost = hn::Zero(d);
+    std::uint16_t* words = block.intact;
+    for (const BondConstants<Real>& bond : block.bonds) {
+      std::uint16_t& word = *words++;
+      if (word == 0) continue;
+      const V t = ends.deformed(d, bond).t;
+      const V s = law.stretch(d, t, law.force_factor(d, t));
+      const V extension = hn::Mul(s, hn::Set(d, bond.energy_weight));
+      const std::uint16_t broken = detail::clear(d, test.fails(d, law, bond, t), lane, word);
+      if (HWY_UNLIKELY(broken != 0)) {
+        sums.broken += std::popcount(broken);
+        lost = hn::Add(lost, hn::IfThenElseZero(detail::lanes_of(d, broken, lane), extension));
+      }
+      intact = hn::Add(intact, hn::IfThenElseZero(detail::lanes_of(d, word, lane), extension));
+    }
+    hn::Store(intact, d, sums.intact + lane);
+    hn::Store(lost, d, sums.lost + lane);
+  }
+}
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,14 @@
+/// Where velocity Verlet really begins to be unstable, while strains are small.
+#pragma once
+
+#include "peridynamics/engine/body.hpp"
+
+namespace rhexis::peridynamics {
+
+/// The longest stable time step (s) of small vibrations, 2 / omega_max, to about 0.1 %. `stable_time_step` is
+/// a bound below it, found without solving for anything. omega_max is the highest frequency of a periodic
+/// piece of the wall, by Lanczos' method on the engine's own forces: the free ends of a vessel only take
+/// stiffness away. Works alone, on the calling rank.
+double linear_time_step_limit(const BodySetup& setup);
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,25 @@
+/// The time steps of a run: how long, how many.
+#pragma once
+
+#include "peridynamics/engine/body.hpp"
+
+namespace rhexis::peridynamics {
+
+/// `stable` bounds the stiffness of every bond by c/|xi| in all directions. Along a PMB bond that is its
+/// stiffness at any strain; across it the stiffness is (c/|xi|) s/(1 + s), which is less while s > -1/2: so
+/// the step holds at finite strain too, until bonds are crushed to half their length (Totals::crushed_bonds).
+struct TimeSteps {
+  double stable = 0;  ///< s, a bound below the longest stable step (see linear_limit.hpp)
+  double step = 0;    ///< s, the one to take
+  long count = 0;     ///< of them until time.end, the last one whole
+};
+
+/// s, of the material's law; for bonds compressed no more than those that break are stretched.
+double stable_time_step(const BodySetup& setup);
+double stable_time_step(const Parameters& p, const Lattice& lattice, SharedFamilies families);
+
+/// The user's step, or a share of the stable one that divides the end time evenly. Throws InputError for a
+/// step that is unstable, or for far too many.
+TimeSteps time_steps(const Parameters& p, const Lattice& lattice, SharedFamilies families);
+
+}  // namespace rhexis::peridynamics

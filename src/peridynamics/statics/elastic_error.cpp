@@ -1,0 +1,158 @@
+#include "peridynamics/statics/elastic_error.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/Sparse>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/error.hpp"
+#include "peridynamics/laws/with_law.hpp"
+
+namespace rhexis::peridynamics {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, std::ptrdiff_t>;
+
+/// Columns that a column has bonds with, itself among them: for each, what `Block` gathers of these bonds.
+template <class Block>
+using BlockRow = std::map<std::int32_t, Block>;
+
+/// An empty matrix with room for `height` rows a column and two entries in each for every column that it has
+/// bonds with: lists of single entries, a dozen for every bond, would take more room than the bonds.
+Matrix matrix_for(const BondFamilies& families, Eigen::Index height) {
+  const std::size_t columns = families.first.size() - 1;
+  std::vector<std::int32_t> seen_by(columns, -1);
+  Eigen::Index blocks = 0;
+  for (std::size_t i = 0; i < columns; ++i) {
+    const auto own = static_cast<std::int32_t>(i);
+    ++blocks;
+    seen_by[i] = own;
+    for (const Bond& bond : families.of(i)) {
+      std::int32_t& seen = seen_by[static_cast<std::size_t>(bond.other)];
+      if (seen != own) ++blocks;
+      seen = own;
+    }
+  }
+  Matrix matrix(height * static_cast<Eigen::Index>(columns), 2 * static_cast<Eigen::Index>(columns));
+  matrix.reserve(2 * height * blocks);
+  return matrix;
+}
+
+/// Stiffness of a slice one row thick, N/m over m: column i's unknowns are 2 i and 2 i + 1.
+Matrix stiffness(const BodySetup& setup) {
+  const Lattice& lattice = setup.lattice;
+  Matrix matrix = matrix_for(*setup.families, 2);
+  for (std::size_t i = 0; i < lattice.section.size(); ++i) {
+    const auto own = static_cast<std::int32_t>(i);
+    BlockRow<std::array<std::array<double, 2>, 2>> blocks;
+    for (const Bond& bond : setup.families->of(i)) {
+      const double size = setup.bond_constant * bond.weight * lattice.volume(i) *
+                          lattice.volume(static_cast<std::size_t>(bond.other)) /
+                          (std::pow(bond.length, 3) * lattice.spacing);
+      for (std::size_t a = 0; a < 2; ++a) {
+        for (std::size_t b = 0; b < 2; ++b) {
+          const double value = size * bond.xi[a] * bond.xi[b];
+          blocks[own][a][b] += value;
+          blocks[bond.other][a][b] -= value;
+        }
+      }
+    }
+    for (std::size_t a = 0; a < 2; ++a) {
+      const auto row = static_cast<Eigen::Index>(2 * i + a);
+      matrix.startVec(row);
+      for (const auto& [other, block] : blocks) {
+        for (std::size_t b = 0; b < 2; ++b)
+          matrix.insertBack(row, 2 * Eigen::Index{other} + static_cast<Eigen::Index>(b)) = block[a][b];
+      }
+    }
+  }
+  matrix.finalize();
+  return matrix;
+}
+
+/// What the dilatations of a state-based law add: c m V_i times the second derivative of their energy, as in
+/// laws/lps.hpp.
+Matrix dilatation_stiffness(const BodySetup& setup, const Lps& law) {
+  const Lattice& lattice = setup.lattice;
+  const auto columns = static_cast<Eigen::Index>(lattice.section.size());
+  const double weighted_volume = law.weighted_volume(lattice.horizon);
+  Matrix dilatation = matrix_for(*setup.families, 1);
+  Eigen::VectorXd size(columns);
+  for (std::size_t i = 0; i < lattice.section.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    size[row] = 2 * law.dilatation_energy(1) * setup.bond_constant * weighted_volume * lattice.volume(i);
+    BlockRow<std::array<double, 2>> blocks;
+    for (const Bond& bond : setup.families->of(i)) {
+      for (std::size_t a = 0; a < 2; ++a) {
+        const double value = 3 / weighted_volume * bond.weight *
+                             lattice.volume(static_cast<std::size_t>(bond.other)) * bond.xi[a] / bond.length;
+        blocks[bond.other][a] += value;
+        blocks[static_cast<std::int32_t>(i)][a] -= value;
+      }
+    }
+    dilatation.startVec(row);
+    for (const auto& [other, block] : blocks) {
+      for (std::size_t a = 0; a < 2; ++a)
+        dilatation.insertBack(row, 2 * Eigen::Index{other} + static_cast<Eigen::Index>(a)) = block[a];
+    }
+  }
+  dilatation.finalize();
+  return dilatation.transpose() * size.asDiagonal() * dilatation;
+}
+
+/// Takes out what would move or turn the slice as a whole: its stiffness does not resist that.
+void balance(const CrossSection& s, Eigen::VectorXd& load) {
+  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(load.size(), 3);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    modes(row, 0) = modes(row + 1, 1) = 1;
+    modes(row, 2) = -s.y[i];
+    modes(row + 1, 2) = s.x[i];
+  }
+  load -= modes * (modes.transpose() * modes).ldlt().solve(modes.transpose() * load);
+}
+
+}  // namespace
+
+double lame_displacement(const Parameters& p, double pressure, double r) {
+  const double nu = p.law.poisson_ratio;
+  const double inner2 = p.inner_radius * p.inner_radius, outer2 = p.outer_radius * p.outer_radius;
+  return (1 + nu) / p.young_modulus * pressure * inner2 / (outer2 - inner2) * ((1 - 2 * nu) * r + outer2 / r);
+}
+
+ElasticError elastic_error(const Parameters& p, const BodySetup& setup) {
+  const CrossSection& s = setup.lattice.section;
+  Eigen::VectorXd load(static_cast<Eigen::Index>(2 * s.size()));
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    load[static_cast<Eigen::Index>(2 * i)] = setup.lattice.volume(i) * setup.layer.bx[i];
+    load[static_cast<Eigen::Index>(2 * i + 1)] = setup.lattice.volume(i) * setup.layer.by[i];
+  }
+  balance(s, load);
+  Matrix matrix = stiffness(setup);
+  with_law(setup.law, [&]<class Law>(const Law& law) {
+    if constexpr (Law::state_based) matrix += dilatation_stiffness(setup, law);
+  });
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver(matrix);
+  solver.setTolerance(1e-8);
+  Eigen::VectorXd u = solver.solve(load);
+  if (solver.info() != Eigen::Success) throw RunError("the bonds do not hold the wall together");
+  balance(s, u);
+
+  double error = 0, size = 0, least = INFINITY, most = -INFINITY;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double r = std::hypot(s.x[i], s.y[i]);
+    const auto row = static_cast<Eigen::Index>(2 * i);
+    const double radial = (u[row] * s.x[i] + u[row + 1] * s.y[i]) / r;
+    const double exact = lame_displacement(p, 1, r);
+    error += s.area[i] * (radial - exact) * (radial - exact);
+    size += s.area[i] * exact * exact;
+    least = std::min(least, radial / exact);
+    most = std::max(most, radial / exact);
+  }
+  return {std::sqrt(error / size), most / least - 1};
+}
+
+}  // namespace rhexis::peridynamics

@@ -1,0 +1,22 @@
+/// How far a discretisation is from linear elasticity, found without simulating anything.
+#pragma once
+
+#include "peridynamics/engine/body.hpp"
+
+namespace rhexis::peridynamics {
+
+/// Lame's radial displacement of a tube under inner pressure in plane strain, m; r in m, Pa:
+/// u_r = (1 + nu)/E P r0^2 / (r1^2 - r0^2) ((1 - 2 nu) r + r1^2 / r).
+double lame_displacement(const Parameters& p, double pressure, double r);
+
+/// Static, infinitesimal expansion of an endless vessel against Lame's solution.
+struct ElasticError {
+  double relative_l2 = 0;  ///< of the radial displacement over the wall
+  double spread = 0;       ///< largest / smallest ratio to Lame's solution, less 1
+};
+
+/// Solves the linearised bonds of one cross-section, displacements independent of z, for the load of
+/// `setup.layer`. Throws RunError where they do not hold the wall together.
+ElasticError elastic_error(const Parameters& p, const BodySetup& setup);
+
+}  // namespace rhexis::peridynamics

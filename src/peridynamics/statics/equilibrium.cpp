@@ -1,0 +1,141 @@
+#include "peridynamics/statics/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "parallel/exact_sum.hpp"
+#include "peridynamics/stability/time_steps.hpp"
+
+namespace rhexis::peridynamics {
+namespace {
+
+using Field = std::array<std::vector<double>, 3>;
+
+constexpr double unbreakable = 1e6;  ///< critical stretch
+
+/// What of the velocity is turned towards the force at first, by what factor less each step, and for how many
+/// steps not: the values of Bitzek et al.
+constexpr double first_turn = 0.1, turn_decay = 0.99;
+constexpr int steps_before_decay = 5;
+
+class Relaxation {
+ public:
+  Relaxation(BodySetup setup, double pressure, parallel::Communicator comm)
+      : setup_(std::move(setup)), pressure_(pressure), comm_(comm) {
+    // Inertia is only a means here: the longer the step, the fewer are needed, but turned velocities are
+    // not those of leapfrog, and with the whole stable step a wall came to no rest.
+    step_ = 0.65 * stable_time_step(setup_);
+    setup_.critical_stretch = unbreakable;
+    body_ = make_body(BodySetup(setup_), comm);
+    for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c)
+      load_ = std::max(load_, pressure * std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
+    const auto particles = static_cast<std::size_t>(body_->layout().local_count());
+    for (std::size_t k = 0; k < 3; ++k) {
+      displacement_[k].assign(particles, 0.0);
+      velocity_[k].assign(particles, 0.0);
+    }
+  }
+
+  Equilibrium run(double tolerance, long most_steps) {
+    Equilibrium found;
+    for (; found.steps < most_steps; ++found.steps) {
+      const Observation& seen = body_->observe(pressure_);
+      force_ = seen.force_density;
+      drop_held_forces();
+      found.residual = largest_force() / load_;
+      if (found.residual <= tolerance) {
+        found.largest_energy_density = comm_.all_reduce(
+            *std::max_element(seen.strain_energy_density.begin(), seen.strain_energy_density.end()),
+            parallel::Reduce::max);
+        found.strain_energy = body_->totals().strain;
+        found.displacement = std::move(displacement_);
+        found.bond_evaluations = body_->bond_evaluations();
+        return found;
+      }
+      if (!std::isfinite(found.residual)) break;
+      step();
+      body_->set_state(displacement_, velocity_);
+    }
+    throw RunError("the wall comes to no rest under " + quantity(pressure_, "Pa") + ": after " +
+                   std::to_string(found.steps) + " steps of relaxation a force is still " +
+                   text(found.residual) + " of the load's" +
+                   (found.residual < 1e-4 ? "; bonds in double precision come nearer to rest" : ""));
+  }
+
+ private:
+  void drop_held_forces() {
+    const PointLayout& l = body_->layout();
+    for (int k = 0; k < 3; ++k) {
+      const auto [first, past] = free_rows(setup_, k);
+      for (std::int64_t r = 0; r < l.row_count; ++r) {
+        if (l.first_row + r >= first && l.first_row + r < past) continue;
+        for (std::int64_t c = 0; c < l.column_count; ++c)
+          force_[static_cast<std::size_t>(k)][static_cast<std::size_t>(c * l.row_count + r)] = 0;
+      }
+    }
+  }
+
+  double largest_force() const {
+    double largest = 0;
+    for (const std::vector<double>& component : force_) {
+      for (double f : component) largest = std::isnan(f) ? INFINITY : std::max(largest, std::abs(f));
+    }
+    return comm_.all_reduce(largest, parallel::Reduce::max);
+  }
+
+  /// Velocity, then displacement.
+  void step() {
+    const double usual_speed = 100 * load_ / setup_.density * step_;
+    parallel::ExactSum power(load_ * usual_speed), forces(load_ * load_), speeds(usual_speed * usual_speed);
+    const auto rows = static_cast<std::size_t>(body_->layout().row_count);
+    const auto first_column = static_cast<std::size_t>(body_->layout().first_column);
+    for (std::size_t i = 0; i < force_[0].size(); ++i) {
+      const double share = setup_.lattice.volume(first_column + i / rows) / setup_.lattice.volume(0);
+      double fv = 0, ff = 0, vv = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        fv += force_[k][i] * velocity_[k][i];
+        ff += force_[k][i] * force_[k][i];
+        vv += velocity_[k][i] * velocity_[k][i];
+      }
+      power.add(share * fv);
+      forces.add(share * ff);
+      speeds.add(share * vv);
+    }
+    double kept = 0, turned = 0;  // of the velocity; of the force, as a velocity
+    if (power.value(comm_) > 0) {
+      kept = 1 - turn_;
+      turned = turn_ * std::sqrt(speeds.value(comm_) / forces.value(comm_));
+      if (++downhill_ > steps_before_decay) turn_ *= turn_decay;
+    } else {
+      turn_ = first_turn;
+      downhill_ = 0;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < force_[k].size(); ++i) {
+        velocity_[k][i] = kept * velocity_[k][i] + (turned + step_ / setup_.density) * force_[k][i];
+        displacement_[k][i] += step_ * velocity_[k][i];
+      }
+    }
+  }
+
+  BodySetup setup_;
+  double pressure_;
+  parallel::Communicator comm_;
+  std::unique_ptr<Body> body_;
+  double step_ = 0;  ///< s
+  double load_ = 0;  ///< N/m3, the largest of the pressure layer
+  Field displacement_, velocity_, force_;
+  double turn_ = first_turn;
+  int downhill_ = 0;  ///< steps since the forces last did no work
+};
+
+}  // namespace
+
+Equilibrium find_equilibrium(BodySetup setup, double pressure, double tolerance, parallel::Communicator comm,
+                             long most_steps) {
+  return Relaxation(std::move(setup), pressure, comm).run(tolerance, most_steps);
+}
+
+}  // namespace rhexis::peridynamics
