@@ -242,7 +242,7 @@ std::vector<Dispersion> dispersion(double horizon_ratio) {
   setup.lattice.rows = rows;
   setup.lattice.row_spacing = setup.lattice.spacing = 1;
   setup.lattice.horizon = horizon_ratio;
-  setup.families = std::make_shared<const BondFamilies>(make_families(setup.lattice));
+  setup.families = std::make_shared<const BondFamilies>(find_families(setup.lattice));
   setup.layer = {std::vector<double>(setup.lattice.section.size()),
                  std::vector<double>(setup.lattice.section.size())};
   setup.ends = EndCondition::axial_periodic;

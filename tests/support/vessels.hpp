@@ -11,6 +11,7 @@
 #include "peridynamics/engine/body.hpp"
 #include "peridynamics/laws/pmb.hpp"
 #include "peridynamics/parameters.hpp"
+#include "peridynamics/stability/bond_step.hpp"
 
 namespace rhexis::test {
 
@@ -69,7 +70,7 @@ inline peridynamics::BodySetup setup_of(peridynamics::Parameters p, double time_
 inline peridynamics::BodySetup two_particles(bool doubles, double critical_stretch, double time_step) {
   peridynamics::BodySetup s;
   s.lattice = {{{0.0, 1.0}, {0.0, 0.0}, {1.0, 1.0}}, 1, 1.0, 1.0, 1.5};
-  s.families = std::make_shared<const peridynamics::BondFamilies>(make_families(s.lattice));
+  s.families = std::make_shared<const peridynamics::BondFamilies>(find_families(s.lattice));
   s.layer = {{0.0, 0.0}, {0.0, 0.0}};
   s.density = 1;
   s.bond_constant = 1;
@@ -81,7 +82,7 @@ inline peridynamics::BodySetup two_particles(bool doubles, double critical_stret
 }
 
 inline double stable_step_of(const peridynamics::BodySetup& s) {
-  return peridynamics::stable_time_step(s.lattice, *s.families, s.bond_constant, s.density,
+  return peridynamics::stable_bond_step(s.lattice, *s.families, s.bond_constant, s.density,
                                         s.critical_stretch);
 }
 

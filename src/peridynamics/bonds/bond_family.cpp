@@ -1,6 +1,5 @@
 #include "peridynamics/bonds/bond_family.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -48,7 +47,7 @@ std::int64_t rows_with_partner(std::int64_t rows, int offset, bool periodic) {
 
 }  // namespace
 
-BondFamilies make_families(const Lattice& lattice) {
+BondFamilies find_families(const Lattice& lattice) {
   const CrossSection& s = lattice.section;
   // Neighbours exactly at the horizon count, whatever the last digit says.
   const double horizon = lattice.horizon / lattice.spacing * (1 + 1e-9);
@@ -128,21 +127,6 @@ ColumnCut mean_column_cut(const BondFamilies& families) {
     steps_of_columns += furthest;
   }
   return {static_cast<double>(steps_of_columns) / columns, static_cast<double>(steps_of_bonds) / columns};
-}
-
-double stable_time_step(const Lattice& lattice, const BondFamilies& families, double bond_constant,
-                        double density, double critical_stretch) {
-  double stiffest = 0;  // lambda_i / c, m2
-  for (std::size_t c = 0; c < lattice.section.size(); ++c) {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (const Bond& bond : families.of(c)) {
-      const Eigen::Vector3d n = Eigen::Vector3d(bond.xi[0], bond.xi[1], bond.xi[2]) / bond.length;
-      sum += bond.weight * lattice.volume(bond.other) / (bond.length * lattice.spacing) * n * n.transpose();
-    }
-    const double largest = sum.selfadjointView<Eigen::Lower>().eigenvalues().maxCoeff();
-    stiffest = std::max(stiffest, std::min((1 + critical_stretch) * largest, sum.trace()));
-  }
-  return std::sqrt(2 * density / (bond_constant * stiffest));
 }
 
 }  // namespace rhexis::peridynamics

@@ -218,8 +218,8 @@ std::string surface_correction(const Parameters& p) {
   return p.cross_section == "polar" ? "calibrated" : "none";
 }
 
-BondFamilies make_families(const Parameters& p, const Lattice& lattice) {
-  BondFamilies families = make_families(lattice);
+BondFamilies weighted_families(const Parameters& p, const Lattice& lattice) {
+  BondFamilies families = find_families(lattice);
   const std::string correction = surface_correction(p);
   if (correction == "volume") correct_volume(lattice, families);
   if (correction == "energy") correct_energy(lattice, families);
@@ -228,7 +228,7 @@ BondFamilies make_families(const Parameters& p, const Lattice& lattice) {
 }
 
 SharedFamilies shared_families(const Parameters& p, const Lattice& lattice) {
-  return std::make_shared<const BondFamilies>(make_families(p, lattice));
+  return std::make_shared<const BondFamilies>(weighted_families(p, lattice));
 }
 
 }  // namespace rhexis::peridynamics

@@ -27,7 +27,7 @@ std::string surface_correction(const Parameters& p);
 ///   of every homogeneous strain in the local frame, and each ring holds it as nearly as that allows; no
 ///   weight falls below `least_weight`. After the idea of fitting micromoduli to the stiffness tensor by
 ///   least squares (Prakash 2018). Polar cross-sections only.
-BondFamilies make_families(const Parameters& p, const Lattice& lattice);
+BondFamilies weighted_families(const Parameters& p, const Lattice& lattice);
 SharedFamilies shared_families(const Parameters& p, const Lattice& lattice);
 
 inline constexpr double least_weight = 0.3;

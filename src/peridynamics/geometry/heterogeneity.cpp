@@ -27,8 +27,8 @@ Heterogeneity::Marginal Heterogeneity::marginal(const std::string& law, double s
   return [l = Lognormal(spread)](double z) { return l.of_normal(z); };
 }
 
-std::vector<WallFactors> Heterogeneity::along(double x, double y, std::span<const double> z) const {
-  std::vector<WallFactors> factors(z.size());
+std::vector<LocalFactors> Heterogeneity::along(double x, double y, std::span<const double> z) const {
+  std::vector<LocalFactors> factors(z.size());
   if (field_) {
     const std::vector<GaussianField::Pair> drawn = field_->along(x, y, z);
     for (std::size_t i = 0; i < z.size(); ++i)
@@ -45,24 +45,24 @@ std::vector<WallFactors> Heterogeneity::along(double x, double y, std::span<cons
   return factors;
 }
 
-WallFactors Heterogeneity::largest(const Lattice& lattice) const {
+LocalFactors Heterogeneity::largest(const Lattice& lattice) const {
   if (uniform()) return {};
   std::vector<double> z(static_cast<std::size_t>(lattice.rows));
   for (std::int64_t row = 0; row < lattice.rows; ++row)
     z[static_cast<std::size_t>(row)] = lattice.height(row);
   const int threads = parallel::thread_count();
-  std::vector<WallFactors> largest(static_cast<std::size_t>(threads), WallFactors{0, 0});
-  const auto raise = [](WallFactors& to, const WallFactors& f) {
+  std::vector<LocalFactors> largest(static_cast<std::size_t>(threads), LocalFactors{0, 0});
+  const auto raise = [](LocalFactors& to, const LocalFactors& f) {
     to = {std::max(to.critical_stretch, f.critical_stretch), std::max(to.stiffness, f.stiffness)};
   };
   parallel::for_each_share(
       threads, lattice.section.size(), [&](int thread, std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
-          for (const WallFactors& f : along(lattice.section.x[c], lattice.section.y[c], z))
+          for (const LocalFactors& f : along(lattice.section.x[c], lattice.section.y[c], z))
             raise(largest[thread], f);
         }
       });
-  for (const WallFactors& f : largest) raise(largest.front(), f);
+  for (const LocalFactors& f : largest) raise(largest.front(), f);
   return largest.front();
 }
 

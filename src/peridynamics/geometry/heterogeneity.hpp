@@ -21,7 +21,7 @@
 namespace rhexis::peridynamics {
 
 /// What a particle's properties are multiplied by.
-struct WallFactors {
+struct LocalFactors {
   double critical_stretch = 1, stiffness = 1;
 };
 
@@ -34,10 +34,10 @@ class Heterogeneity {
   bool uniform() const { return uniform_; }
 
   /// Factors at (x, y, z[i]), m.
-  std::vector<WallFactors> along(double x, double y, std::span<const double> z) const;
+  std::vector<LocalFactors> along(double x, double y, std::span<const double> z) const;
 
   /// The largest factors of any particle of the lattice; no bond has larger ones.
-  WallFactors largest(const Lattice& lattice) const;
+  LocalFactors largest(const Lattice& lattice) const;
 
  private:
   /// From a standard normal value to a factor.

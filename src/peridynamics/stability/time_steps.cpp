@@ -8,6 +8,7 @@
 #include "core/format.hpp"
 #include "peridynamics/geometry/heterogeneity.hpp"
 #include "peridynamics/laws/with_law.hpp"
+#include "peridynamics/stability/bond_step.hpp"
 #include "peridynamics/stability/dilatation_bound.hpp"
 
 namespace rhexis::peridynamics {
@@ -15,10 +16,10 @@ namespace rhexis::peridynamics {
 double stable_time_step(const BodySetup& setup) {
   const Lattice& lattice = setup.lattice;
   return with_law(setup.law, [&]<class Law>(const Law& law) {
-    const WallFactors largest = setup.heterogeneity.largest(lattice);
+    const LocalFactors largest = setup.heterogeneity.largest(lattice);
     const double critical_stretch = setup.critical_stretch * largest.critical_stretch;
     const double of_bonds =
-        stable_time_step(lattice, *setup.families, setup.bond_constant, setup.density, critical_stretch) /
+        stable_bond_step(lattice, *setup.families, setup.bond_constant, setup.density, critical_stretch) /
         std::sqrt(largest.stiffness * law.stiffness_ratio(critical_stretch));
     if constexpr (!Law::state_based) {
       return of_bonds;
@@ -36,13 +37,9 @@ double stable_time_step(const BodySetup& setup) {
   });
 }
 
-double stable_time_step(const Parameters& p, const Lattice& lattice, SharedFamilies families) {
-  return stable_time_step(make_setup(p, lattice, std::move(families), 0));
-}
-
 TimeSteps time_steps(const Parameters& p, const Lattice& lattice, SharedFamilies families) {
   TimeSteps t;
-  t.stable = stable_time_step(p, lattice, std::move(families));
+  t.stable = stable_time_step(make_setup(p, lattice, std::move(families), 0));
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
   if (t.step > t.stable && !p.allow_unstable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +

@@ -14,9 +14,9 @@ struct TimeSteps {
   long count = 0;     ///< of them until time.end, the last one whole
 };
 
-/// s, of the material's law; for bonds compressed no more than those that break are stretched.
+/// The stable time step (s) of the wall's law, by bond_step.hpp and dilatation_bound.hpp; for bonds that are
+/// compressed no more than those that break are stretched. `setup.time_step` is not read.
 double stable_time_step(const BodySetup& setup);
-double stable_time_step(const Parameters& p, const Lattice& lattice, SharedFamilies families);
 
 /// The user's step, or a share of the stable one that divides the end time evenly. Throws InputError for a
 /// step that is unstable, or for far too many.

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "peridynamics/bonds/bond_family.hpp"
 #include "peridynamics/laws/pmb.hpp"
+#include "peridynamics/stability/bond_step.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {
@@ -48,7 +49,7 @@ TEST(BondFamilies, CountsOfThePaper) {
   Parameters p = test::paper_vessel(10e-3);
   resolve(p);
   const Lattice lattice = make_lattice(p);
-  const BondFamilies families = make_families(lattice);
+  const BondFamilies families = find_families(lattice);
   EXPECT_EQ(lattice.particles(), 54800);
   EXPECT_EQ(count_bonds(lattice, families, false), 3542896);
   EXPECT_EQ(largest_family(lattice, families, false), 160);
@@ -59,7 +60,7 @@ TEST(BondFamilies, BulkParticleHas178Neighbours) {
   p.inner_radius = 1e-6;  // a rod
   resolve(p);
   const Lattice lattice = make_lattice(p);
-  EXPECT_EQ(largest_family(lattice, make_families(lattice), false), 178);
+  EXPECT_EQ(largest_family(lattice, find_families(lattice), false), 178);
 }
 
 TEST(BondFamilies, EveryBondHasItsExactOpposite) {
@@ -68,7 +69,7 @@ TEST(BondFamilies, EveryBondHasItsExactOpposite) {
     p.cross_section = kind;
     resolve(p);
     const Lattice lattice = make_lattice(p);
-    const BondFamilies f = make_families(lattice);
+    const BondFamilies f = find_families(lattice);
     for (std::size_t i = 0; i < lattice.section.size(); ++i) {
       for (std::int64_t b = f.first[i]; b < f.first[i + 1]; ++b) {
         const Bond& bond = f.bonds[b];
@@ -89,7 +90,7 @@ TEST(BondFamilies, EarlierBondsComeByColumnAndLaterOnesByRow) {
   Parameters p = test::paper_vessel();
   resolve(p);
   const Lattice lattice = make_lattice(p);
-  const BondFamilies f = make_families(lattice);
+  const BondFamilies f = find_families(lattice);
   for (std::size_t i = 0; i < lattice.section.size(); ++i) {
     const auto own = static_cast<std::int32_t>(i);
     const std::span<const Bond> family = f.of(i);
@@ -107,7 +108,7 @@ TEST(BondFamilies, EarlierBondsComeByColumnAndLaterOnesByRow) {
 TEST(BondFamilies, CountOfAShortBodyIsCountedByHand) {
   // One column of 3 rows, horizon 2.5 spacings: bonds 0-1, 1-2, 0-2.
   Lattice line{{{0.0}, {0.0}, {1.0}}, 3, 1.0, 1.0, 2.5};
-  const BondFamilies f = make_families(line);
+  const BondFamilies f = find_families(line);
   EXPECT_EQ(count_bonds(line, f, false), 3);
   EXPECT_EQ(largest_family(line, f, false), 2);
   EXPECT_EQ(f.count(0), 4);
@@ -118,12 +119,12 @@ TEST(BondFamilies, CountOfAShortBodyIsCountedByHand) {
 TEST(BondFamilies, CutOfARingIsCountedByHand) {
   // One layer of columns around, horizon 1.5 spacings: a column has three bonds to each of its neighbours.
   Lattice ring{polar_cross_section(0.95, 1.05, 0.1), 3, 0.1, 0.1, 0.15};
-  const ColumnCut cut = mean_column_cut(make_families(ring));
+  const ColumnCut cut = mean_column_cut(find_families(ring));
   EXPECT_EQ(cut.columns, 1);
   EXPECT_EQ(cut.bonds, 3);
   // 2.1 spacings: one to the next but one besides, which goes through two cuts.
   ring.horizon = 0.21;
-  const ColumnCut wider = mean_column_cut(make_families(ring));
+  const ColumnCut wider = mean_column_cut(find_families(ring));
   EXPECT_EQ(wider.columns, 2);
   EXPECT_EQ(wider.bonds, 3 + 2 * 1);
 }
@@ -138,7 +139,7 @@ TEST(StableTimeStep, TendsToTheContinuumValue) {
   const double c = Pmb::bond_constant(p.young_modulus, *p.horizon);
   const double trace = c * 2 * std::numbers::pi * *p.horizon * *p.horizon;
   const auto step = [&](double critical_stretch) {
-    return stable_time_step(lattice, make_families(lattice), c, p.density, critical_stretch);
+    return stable_bond_step(lattice, find_families(lattice), c, p.density, critical_stretch);
   };
   EXPECT_NEAR(step(0) / std::sqrt(6 * p.density / trace), 1, 0.04);
   EXPECT_NEAR(step(0.25) / step(0), 1 / std::sqrt(1.25), 1e-12);

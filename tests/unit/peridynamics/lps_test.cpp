@@ -172,7 +172,7 @@ TEST(Lps, StableStepIsSafeAndNotWasteful) {
       p.cross_section = "polar";
       resolve(p);
       const Lattice lattice = make_lattice(p);
-      const double bound = stable_time_step(p, lattice, shared_families(p, lattice)),
+      const double bound = stable_time_step(make_setup(p, lattice, shared_families(p, lattice), 0)),
                    longest = longest_stable_step(p);
       std::printf("nu = %.2f, %s: stable step %.4g s, %.3f of the longest\n", nu, ends, bound,
                   bound / longest);

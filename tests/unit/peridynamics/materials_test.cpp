@@ -23,7 +23,7 @@ Parameters vessel_of(const std::string& law, double length = 1e-3) {
 double stable_step(Parameters p) {
   resolve(p);
   const Lattice lattice = make_lattice(p);
-  return stable_time_step(p, lattice, shared_families(p, lattice));
+  return stable_time_step(make_setup(p, lattice, shared_families(p, lattice), 0));
 }
 
 std::string key_at_fault(Parameters p) {

@@ -16,7 +16,7 @@ struct Made {
 
 Made made(const Parameters& p) {
   const Lattice lattice = make_lattice(p);
-  const BondFamilies families = make_families(lattice);
+  const BondFamilies families = find_families(lattice);
   double neighbours = 0;
   for (std::size_t c = 0; c < lattice.section.size(); ++c) {
     std::set<std::int32_t> others{static_cast<std::int32_t>(c)};

@@ -47,8 +47,8 @@ TEST(Spots, FactorsGoOverToOneAlongTheWall) {
   const double half = 0.5e-3, pi = std::numbers::pi;
   EXPECT_NEAR(at(pi, 2e-3).critical_stretch, 0.4, 1e-15);
   EXPECT_NEAR(at(pi, 2e-3).stiffness, 3, 1e-15);
-  for (const WallFactors& f : {at(pi, 2e-3 + half), at(pi, 2e-3 - half), at(pi - half / mid_radius, 2e-3),
-                               at(half / mid_radius - pi, 2e-3)}) {
+  for (const LocalFactors& f : {at(pi, 2e-3 + half), at(pi, 2e-3 - half), at(pi - half / mid_radius, 2e-3),
+                                at(half / mid_radius - pi, 2e-3)}) {
     EXPECT_NEAR(f.critical_stretch, 0.7, 1e-12);
     EXPECT_NEAR(f.stiffness, 2, 1e-12);
   }

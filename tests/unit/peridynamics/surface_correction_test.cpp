@@ -31,7 +31,7 @@ struct Wall {
 Wall wall(const std::string& cross_section, const std::string& correction, double rotation = 0) {
   Wall w{vessel(cross_section, correction, rotation), {}, {}};
   w.lattice = make_lattice(w.p);
-  w.families = make_families(w.p, w.lattice);
+  w.families = weighted_families(w.p, w.lattice);
   return w;
 }
 
@@ -100,7 +100,7 @@ TEST(SurfaceCorrection, LeavesTheMiddleOfAThickWallNearlyAlone) {
   p.surface_correction = "calibrated";
   resolve(p);
   const Lattice lattice = make_lattice(p);
-  const BondFamilies families = make_families(p, lattice);
+  const BondFamilies families = weighted_families(p, lattice);
   for (std::size_t i = 0; i < lattice.section.size(); ++i) {
     const double r = std::hypot(lattice.section.x[i], lattice.section.y[i]);
     if (std::abs(r - 6e-3) > 5e-5) continue;
