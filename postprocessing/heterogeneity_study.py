@@ -23,7 +23,8 @@ matplotlib.use("Agg")  # no display needed
 import matplotlib.pyplot as pyplot
 import numpy
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from places import PROGRAM, RESULTS, ROOT
+
 RAMP_S, PRESSURE_PA = 1.8e-3, 320e3
 LENGTH_M, SPACING_M = 4e-3, 1e-4
 VESSEL = ["discretisation.cross_section=polar", "load.layer=consistent", "load.venting=orifice",
@@ -103,9 +104,9 @@ def draw(axes, case, wall):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/rhexis")
+    parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
     parser.add_argument("--seeds", type=int, default=3)
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/heterogeneity")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=RESULTS / "heterogeneity")
     options = parser.parse_args()
 
     figure, axes = pyplot.subplots(2, (len(CASES) + 1) // 2, figsize=(14, 6), sharex=True, sharey=True,

@@ -35,10 +35,10 @@ import statistics
 import sys
 
 from performance_model import Machine, core_rate, nodes_of, problem_of, solve_seconds
+from places import PROGRAM, RESULTS
 from scaling_report import write_report
 from scaling_runs import check_input, measured, read_machine, run_here, write_jobs
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 class Parser(argparse.ArgumentParser):
@@ -192,7 +192,7 @@ def parse_arguments():
                         help="default: 1x1 1x2 2x1")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="passed on to every run")
     parser.add_argument("--repeat", type=positive(int), default=3, help="runs of each case, default 3")
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/rhexis")
+    parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
     parser.add_argument("--launcher", type=shlex.split, metavar="COMMAND",
                         help="what starts ranks, before -n RANKS; default: mpirun, bound to cores")
     parser.add_argument("--slurm", type=pathlib.Path, metavar="DIR", help="write job scripts instead of running")
@@ -204,7 +204,7 @@ def parse_arguments():
     parser.add_argument("--latency", type=positive(float), help="of a message between nodes, s; default: as measured between them, or 2e-6")
     parser.add_argument("--bandwidth", type=positive(float), help="of a node, bytes/s; default: as measured, or 12.5e9")
     parser.add_argument("--cores-per-node", type=positive(int), help="default: this machine's")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/scaling")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=RESULTS / "scaling")
     options = parser.parse_args()
     if bool(options.input) == bool(options.collect):
         parser.error("give either an input file or --collect DIR")

@@ -13,7 +13,8 @@ import json
 import pathlib
 import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+from places import PROGRAM, RESULTS, ROOT
+
 
 # What is changed, and how.
 CHOICES = [
@@ -58,9 +59,9 @@ def measure(program, ranks, folder, overrides):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/bin/rhexis")
+    parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
     parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=ROOT / "results/unstated_choices")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=RESULTS / "unstated_choices")
     options = parser.parse_args()
 
     rows = []

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/configuration.hpp"
+#include "core/installation.hpp"
 #include "hemodynamics/vessel_lines.hpp"
 #include "input/wording.hpp"
 #include "parallel/together.hpp"
@@ -43,12 +44,8 @@ insitu::Settings settings_for(const Configuration& c) {
   return settings;
 }
 
-/// Rhexis's own scripts: installed beside the program, or in the source tree.
 fs::path own_scripts() {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
-  const fs::path installed = program.parent_path().parent_path() / "share" / "rhexis" / "catalyst_scripts";
-  std::error_code ignored;
-  return fs::exists(installed, ignored) ? installed : fs::path(RHEXIS_SCRIPT_DIR);
+  return installation_prefix() / data_folder / "catalyst_scripts";
 }
 
 bool is_package(const fs::path& path) {

@@ -1,5 +1,5 @@
 /// Plugins: libraries that need ParaView, opened only when their work is asked for. Each is looked for in the
-/// folder RHEXIS_PLUGIN_DIR (environment variable) or else in `../lib` beside the program's folder.
+/// folder RHEXIS_PLUGIN_DIR (environment variable) or else in the installation's (core/installation.hpp).
 #pragma once
 
 #include <dlfcn.h>
@@ -8,14 +8,15 @@
 #include <filesystem>
 #include <string>
 
+#include "core/installation.hpp"
+
 namespace rhexis {
 
 /// Where the plugin `library` (a file name) has its place, there or not.
 inline std::filesystem::path plugin_path(const std::string& library) {
   const char* folder = std::getenv("RHEXIS_PLUGIN_DIR");
   if (folder != nullptr) return std::filesystem::path(folder) / library;
-  const auto program = std::filesystem::read_symlink("/proc/self/exe");
-  return program.parent_path().parent_path() / "lib" / library;
+  return installation_prefix() / plugin_folder / library;
 }
 
 /// Whether the plugin's file is in its place; costs nothing.
@@ -29,7 +30,7 @@ inline void* open_plugin(const std::string& library, int mode, std::string& reas
   const auto path = plugin_path(library);
   if (!has_plugin(library)) {
     reason = "not available: there is no " + path.string() +
-             " (its folder is `lib` beside the program's, or what RHEXIS_PLUGIN_DIR says)";
+             " (the environment variable RHEXIS_PLUGIN_DIR may name its folder)";
     return nullptr;
   }
   void* plugin = dlopen(path.c_str(), mode);

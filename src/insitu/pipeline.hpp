@@ -99,7 +99,7 @@ class Pipeline {
 std::string inspect_scripts(const Settings& settings, parallel::Communicator communicator);
 
 /// Loads the plugin, starts ParaView and checks the scripts without running them. The plugin is looked for in
-/// the folder RHEXIS_PLUGIN_DIR (environment variable) or else in `../lib` beside the program's folder.
+/// the folder RHEXIS_PLUGIN_DIR (environment variable) or else in the installation's (core/installation.hpp).
 /// Throws NotAvailable without ParaView, RunError for a bad script.
 std::unique_ptr<Pipeline> load_pipeline(const Settings& settings, parallel::Communicator communicator);
 

@@ -1,0 +1,8 @@
+"""Where a study finds its inputs and the program, and where it writes: in a clone, or in the installation that this file is in."""
+
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent  # with inputs/: the clone, or share/rhexis of an installation
+IS_CLONE = (ROOT / "CMakeLists.txt").exists()
+PROGRAM = ROOT / "build/release/bin/rhexis" if IS_CLONE else ROOT.parent.parent / "bin/rhexis"
+RESULTS = ROOT / "results" if IS_CLONE else pathlib.Path("results")

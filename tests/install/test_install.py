@@ -1,0 +1,66 @@
+"""An installation, moved after it was made: the program runs and draws, and the examples build against its libraries.
+
+Run by ctest as: test_install.py BUILD_DIR SOURCE_DIR CMAKE
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD, SOURCE, CMAKE = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
+SHORT = ["--set", "vessel.length=1.2 mm", "--set", "time.end=4 us", "--set", "output.every_steps=2"]
+
+
+def run(*command, **options):
+    result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False, **options)
+    if result.returncode != 0:
+        raise AssertionError(f"{command}:\n{result.stdout}\n{result.stderr}")
+    return result.stdout
+
+
+class Install(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = pathlib.Path(cls.folder.name).resolve()
+        run(CMAKE, "--install", BUILD, "--prefix", cls.root / "first")
+        os.rename(cls.root / "first", cls.root / "moved")
+        cls.prefix = cls.root / "moved"
+        cls.program = cls.prefix / "bin/rhexis"
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_a_vessel_runs_with_pictures(self):
+        inputs = self.prefix / "share/rhexis/inputs"
+        run(self.program, "run", inputs / "perivessel.toml", "-o", self.root / "results", "--quiet", *SHORT, cwd=self.root)
+        record = json.loads((self.root / "results/run.json").read_text())
+        self.assertEqual(record["status"], "completed")
+        if "Catalyst" in run(self.program, "--version"):
+            self.assertTrue(list((self.root / "results/images").glob("*.png")))
+            render = self.prefix / "share/rhexis/postprocessing"
+            run(render / "pvpython_headless", render / "render_particles.py", self.root / "results/particles.xdmf", "-o", self.root / "after")
+            self.assertTrue(list((self.root / "after").glob("*.png")))
+
+    def test_an_example_builds_against_the_libraries(self):
+        build = self.root / "build"
+        run(CMAKE, "-S", SOURCE / "examples/fork", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release")
+        run(CMAKE, "--build", build)
+        flows = [float(line.split()[2]) for line in run(build / "fork").splitlines()]
+        self.assertEqual(len(flows), 3)
+        self.assertAlmostEqual(flows[0], flows[1] + flows[2], delta=2e-3 * flows[0])
+        # Poiseuille's law: equal lengths and pressures, so flows are as the fourth powers of the radii.
+        self.assertAlmostEqual(flows[1] / flows[2], (1.6 / 1.2) ** 4, delta=2e-3 * flows[1] / flows[2])
+
+    def test_nothing_names_the_folder_it_was_built_in(self):
+        for file in self.prefix.rglob("*.cmake"):
+            self.assertNotIn(str(SOURCE), file.read_text(), str(file))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
