@@ -14,7 +14,7 @@ struct Command {
   Action action = Action::nothing;
   std::string file;
   std::vector<std::string> overrides;  ///< of --set, "key=value"
-  std::string directory;               ///< of -o; empty: results/<name of the input file>
+  std::string directory;               ///< of -o; empty: results/ and the name of the input file
   std::string restart;                 ///< checkpoint
   std::string section;                 ///< of `keys`
   bool overwrite = false;

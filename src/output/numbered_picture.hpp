@@ -1,4 +1,4 @@
-/// Names of a run's pictures: <series>_<digits>.png, as scripts give them.
+/// Names of a run's pictures: SERIES_DIGITS.png, as scripts give them.
 #pragma once
 
 #include <filesystem>

@@ -11,8 +11,8 @@
 namespace rhexis::output {
 
 enum class SeriesFormat {
-  xdmf,    ///< <basename>.h5 and .xdmf, see XdmfSeries
-  vtkhdf,  ///< <basename>.vtkhdf, see VtkHdfSeries
+  xdmf,    ///< NAME.h5 and .xdmf, see XdmfSeries
+  vtkhdf,  ///< NAME.vtkhdf, see VtkHdfSeries
 };
 
 enum class Precision { single_precision, double_precision };

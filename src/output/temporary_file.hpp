@@ -14,7 +14,7 @@ const std::string& run_token();
 /// Gives this process the token of another rank. Not while other threads make temporary files.
 void share_run_token(const std::string& token);
 
-/// A name beside `path` for a temporary file, `.<name>.<token>-<number>`; another one at every call. No file
+/// A name beside `path` for a temporary file, .NAME.TOKEN-NUMBER; another one at every call. No file
 /// is made. The name is never longer than file systems allow (255 bytes) where that of `path` is not.
 std::filesystem::path temporary_name_beside(const std::filesystem::path& path);
 

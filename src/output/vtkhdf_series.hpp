@@ -1,14 +1,14 @@
 /// A series as VTKHDF, the HDF5 file format of VTK: one file, which ParaView 5.12 and later reads as poly
 /// data over time.
 ///
-/// `<basename>.vtkhdf`, group /VTKHDF (version 2.2 of the format), for N points, C cells (a vertex at each
+/// `NAME.vtkhdf`, group /VTKHDF (version 2.2 of the format), for N points, C cells (a vertex at each
 /// point, or L lines) and room for S steps, the planned ones and one more:
 ///   Points                        [S N, 3] of points that move, else [N, 3]; attribute `unit`
-///   PointData/<field>             [S N] or [S N, 3]; attribute `unit`
+///   PointData/FIELD               [S N] or [S N, 3]; attribute `unit`
 ///   PointData/reference_position  [N, 3], undeformed, the same at every step; only of points that move
-///   CellData/<field>              [S C] or [S C, 3]
+///   CellData/FIELD                [S C] or [S C, 3]
 ///   Vertices, Lines, Polygons, Strips: the cells, the same at every step
-///   FieldData/<annotation>        [S], and `step`, the number of the step
+///   FieldData/ANNOTATION          [S], and `step`, the number of the step
 ///   Steps                         attribute NSteps; Values [NSteps] (s), and where each step begins in the
 ///   others
 /// and the attributes `title` and `version` of the file. Steps are stored in the order of writing. What is

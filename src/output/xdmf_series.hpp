@@ -1,19 +1,19 @@
 /// A series as HDF5 and XDMF, which any ParaView reads.
 ///
-/// `<basename>.h5` holds N points and L lines, those of points in the order of their layout:
-///   /<field>/<step>       [N], [N, 3], [L] or [L, 3], the step in six digits, e.g. /displacement/000050;
-///                         attribute `unit` on /<field>
-///   /<field>/unplanned    as a step; used when a run ends early at a step that was not planned. The XDMF
+/// `NAME.h5` holds N points and L lines, those of points in the order of their layout:
+///   /FIELD/STEP           [N], [N, 3], [L] or [L, 3], the step in six digits, e.g. /displacement/000050;
+///                         attribute `unit` on /FIELD
+///   /FIELD/unplanned      as a step; used when a run ends early at a step that was not planned. The XDMF
 ///                         file tells which step it is
 /// of points that move
-///   /position/<step>      [N, 3]
+///   /position/STEP        [N, 3]
 ///   /reference_position   [N, 3], undeformed
 ///   /connectivity         [N], 0..N-1: the points as cells, for XDMF
 /// of points that stay, with lines between them
 ///   /position             [N, 3]; attribute `unit`
 ///   /connectivity         [L, 2], the points that a line joins, numbered over all ranks from 0
 /// and the attributes `title` and `version`. Values are single precision unless asked otherwise.
-/// `<basename>.xdmf` lists the complete steps: see XdmfList.
+/// `NAME.xdmf` lists the complete steps: see XdmfList.
 #pragma once
 
 #include "output/field_series.hpp"

@@ -6,8 +6,10 @@ Run by ctest as: test_rules.py SOURCE_DIR BUILD_DIR CTEST
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 ROOT = pathlib.Path(sys.argv[1])
@@ -97,6 +99,13 @@ class Rules(unittest.TestCase):
     def test_the_citation_names_the_version(self):
         version = re.search(r"project\(rhexis VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
         self.assertIn(f"\nversion: {version}\n", (ROOT / "CITATION.cff").read_text())
+
+    @unittest.skipUnless(shutil.which("doxygen"), "doxygen is not installed")
+    def test_doxygen_understands_every_header(self):
+        with tempfile.TemporaryDirectory() as folder:
+            settings = (ROOT / "Doxyfile").read_text() + f"OUTPUT_DIRECTORY = {folder}\n"
+            result = subprocess.run(["doxygen", "-"], input=settings, cwd=ROOT, capture_output=True, text=True, check=True)
+        self.assertEqual(result.stderr, "")
 
     def test_every_test_has_a_time_limit(self):
         listed = subprocess.run([CTEST, "--show-only=json-v1"], cwd=BUILD, capture_output=True, check=True).stdout
