@@ -62,14 +62,14 @@ CascadeEvent event_of(const Json& json) {
           .next_risk = optional_at<double>(json, "next_risk")};
 }
 
-Json to_json(const coupling::Injury& injury) {
+Json to_json(const hemodynamics::VesselFailure& injury) {
   return {{"vessel", injury.vessel},
           {"occluded", injury.occluded},
           {"orifice_strength", injury.orifice.strength},
           {"outside_pressure_Pa", injury.orifice.outside_pressure}};
 }
 
-coupling::Injury injury_of(const Json& json) {
+hemodynamics::VesselFailure injury_of(const Json& json) {
   return {json.at("vessel").get<std::uint32_t>(),
           json.at("occluded").get<bool>(),
           {json.at("orifice_strength").get<double>(), json.at("outside_pressure_Pa").get<double>()}};
@@ -112,7 +112,8 @@ void save_cascade(const CascadeState& state, parallel::Communicator comm, output
             {"steps_before", state.steps_before}};
   for (std::size_t i = 0; i < state.events.size(); ++i)
     json["events"].push_back(to_json(state.events[i], i + 1));
-  for (const coupling::Injury& injury : state.aftermath.injuries) json["injuries"].push_back(to_json(injury));
+  for (const hemodynamics::VesselFailure& injury : state.aftermath.injuries)
+    json["injuries"].push_back(to_json(injury));
   file.write(cascade_name, comm.broadcast(json.dump()));
 }
 

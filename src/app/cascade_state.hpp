@@ -17,7 +17,7 @@ namespace rhexis::app {
 /// One vessel that was simulated. What followed is known once the network has been solved with what it left.
 struct CascadeEvent {
   QueriedVessel vessel;
-  double risk = 0;          ///< of that vessel (screening/screening.hpp)
+  double risk = 0;          ///< of that vessel (studies/screening/screening.hpp)
   double net_pressure = 0;  ///< Pa, the largest on the intact wall
   /// Whether the wall ruptured; none where an interrupt ended the event before it did.
   std::optional<bool> ruptured = {};

@@ -16,7 +16,6 @@
 #include "core/format.hpp"
 #include "core/memory.hpp"
 #include "core/text_file.hpp"
-#include "ensemble/walls.hpp"
 #include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/reader.hpp"
@@ -33,7 +32,7 @@
 #include "peridynamics/loads/schedule_table.hpp"
 #include "peridynamics/loads/thin_spots.hpp"
 #include "peridynamics/stability/time_steps.hpp"
-#include "screening/screening.hpp"
+#include "studies/screening/screening.hpp"
 
 namespace rhexis::app {
 namespace {

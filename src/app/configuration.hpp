@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "core/parameter.hpp"
-#include "coupling/injured_graph.hpp"
 #include "coupling/parameters.hpp"
-#include "ensemble/parameters.hpp"
 #include "hemodynamics/parameters.hpp"
+#include "hemodynamics/steady/ruptured_network.hpp"
 #include "input/reader.hpp"
 #include "insitu/parameters.hpp"
 #include "network/parameters.hpp"
@@ -19,13 +18,14 @@
 #include "peridynamics/bonds/bond_family.hpp"
 #include "peridynamics/engine/memory.hpp"
 #include "peridynamics/parameters.hpp"
-#include "screening/parameters.hpp"
+#include "studies/ensemble/parameters.hpp"
+#include "studies/screening/parameters.hpp"
 
 namespace rhexis::app {
 
 /// What the earlier events of a cascade left: no input.
 struct Aftermath {
-  std::vector<coupling::Injury> injuries;
+  std::vector<hemodynamics::VesselFailure> injuries;
   std::vector<std::uint32_t> settled;  ///< vessels that were simulated, whether they ruptured or held
 };
 
@@ -78,7 +78,7 @@ ParameterList declare(Configuration& c);
 /// network, so this has to wait for that. Throws InputError, complete with place. Collective.
 void resolve_wall(Configuration& c, parallel::Communicator comm);
 
-/// The risk (screening/screening.hpp) of a wall without spots or scatter under its schedule's highest
+/// The risk (studies/screening/screening.hpp) of a wall without spots or scatter under its schedule's highest
 /// pressure; none of a wall that stiffens.
 std::optional<double> risk_of_load(const peridynamics::Parameters& vessel);
 

@@ -12,7 +12,7 @@
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
-#include "hemodynamics/distributed_flow.hpp"
+#include "hemodynamics/steady/graph/distributed_flow.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/together.hpp"
 
@@ -70,7 +70,7 @@ class DistributedTier : public NetworkTier {
     return s;
   }
 
-  std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel&) override {
+  std::unique_ptr<hemodynamics::VesselInNetwork> vessel(const QueriedVessel&) override {
     throw InputError("a coupled vessel needs an implicit or explicit network", "network.tier");
   }
 

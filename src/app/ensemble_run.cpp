@@ -13,11 +13,11 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/text_file.hpp"
-#include "ensemble/sample_table.hpp"
 #include "input/difference.hpp"
 #include "output/atomic_file.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/together.hpp"
+#include "studies/ensemble/sample_table.hpp"
 
 namespace rhexis::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "app/run_base.hpp"
-#include "ensemble/probability.hpp"
-#include "ensemble/sample.hpp"
 #include "output/atomic_file.hpp"
+#include "studies/ensemble/probability.hpp"
+#include "studies/ensemble/sample.hpp"
 
 namespace rhexis::app {
 

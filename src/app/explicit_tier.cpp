@@ -12,9 +12,9 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/memory.hpp"
-#include "coupling/injured_graph.hpp"
-#include "hemodynamics/graph_flow.hpp"
-#include "hemodynamics/haematocrit.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
+#include "hemodynamics/steady/graph/haematocrit.hpp"
+#include "hemodynamics/steady/ruptured_network.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/together.hpp"
 
@@ -69,15 +69,15 @@ class ExplicitTier : public NetworkTier {
     return s;
   }
 
-  std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel& queried) override {
+  std::unique_ptr<hemodynamics::VesselInNetwork> vessel(const QueriedVessel& queried) override {
     if (!comm_.is_root()) return nullptr;
     if (injured_) {
-      return coupling::vessel_in_graph(injured_->graph(), injured_->conductance(), injured_->conditions(),
-                                       static_cast<std::uint32_t>(queried.vessel));
+      return hemodynamics::vessel_in_graph(injured_->graph(), injured_->conductance(), injured_->conditions(),
+                                           static_cast<std::uint32_t>(queried.vessel));
     }
-    return coupling::vessel_in_graph(network_.graph,
-                                     conductances(network_.graph, mechanics_.viscosity, haematocrit_),
-                                     network_.conditions, static_cast<std::uint32_t>(queried.vessel));
+    return hemodynamics::vessel_in_graph(network_.graph,
+                                         conductances(network_.graph, mechanics_.viscosity, haematocrit_),
+                                         network_.conditions, static_cast<std::uint32_t>(queried.vessel));
   }
 
  private:
@@ -129,7 +129,7 @@ class ExplicitTier : public NetworkTier {
   hemodynamics::GraphFlow find_injured_flow(NetworkSolution& s) {
     injured_.emplace(network_.graph, conductances(network_.graph, mechanics_.viscosity, {}),
                      network_.conditions, c_.aftermath.injuries);
-    coupling::InjuredGraph::Result result = injured_->solve(solver_options(c_));
+    hemodynamics::RupturedNetwork::Result result = injured_->solve(solver_options(c_));
     s.leaks = std::move(result.leaks);
     return std::move(result.flow);
   }
@@ -225,7 +225,7 @@ class ExplicitTier : public NetworkTier {
   network::BoundedGraph network_;
   std::vector<double> haematocrit_;  ///< [V], with phase separation
   std::vector<std::uint32_t> queried_;
-  std::optional<coupling::InjuredGraph> injured_;
+  std::optional<hemodynamics::RupturedNetwork> injured_;
   double making_ = 0;  ///< s
 };
 

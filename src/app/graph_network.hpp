@@ -8,8 +8,8 @@
 
 #include "app/configuration.hpp"
 #include "app/network_tier.hpp"
-#include "hemodynamics/graph_flow.hpp"
 #include "hemodynamics/hydrostatic.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "network/graph.hpp"
 
 namespace rhexis::app {

@@ -9,7 +9,7 @@
 #include "app/stopwatch.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
-#include "hemodynamics/tree_flow.hpp"
+#include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "hemodynamics/viscosity.hpp"
 #include "network/tree_selection.hpp"
 
@@ -85,8 +85,8 @@ class ImplicitTier : public NetworkTier {
     return s;
   }
 
-  std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel& queried) override {
-    return coupling::vessel_in_tree(*flow_, static_cast<std::uint64_t>(queried.vessel));
+  std::unique_ptr<hemodynamics::VesselInNetwork> vessel(const QueriedVessel& queried) override {
+    return hemodynamics::vessel_in_tree(*flow_, static_cast<std::uint64_t>(queried.vessel));
   }
 
  private:

@@ -9,7 +9,7 @@
 #include "app/network_tier.hpp"
 #include "app/stopwatch.hpp"
 #include "core/format.hpp"
-#include "hemodynamics/tree_statistics.hpp"
+#include "hemodynamics/steady/tree/tree_statistics.hpp"
 #include "network/tree_pair.hpp"
 
 namespace rhexis::app {

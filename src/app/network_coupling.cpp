@@ -10,8 +10,8 @@
 #include "app/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "coupling/bleeding.hpp"
 #include "hemodynamics/poiseuille.hpp"
+#include "hemodynamics/steady/bleeding.hpp"
 #include "hemodynamics/viscosity.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/monitors/opening.hpp"
@@ -66,7 +66,7 @@ const Configuration& NetworkCoupling::hand_over() {
   first_load_ = load_;
   *c_.vessel.critical_stretch *= values[6];
   try {
-    piece_ = coupling::hand_over(data_, c_.coupling.resolution == "paper", c_.vessel);
+    piece_ = coupling::extract_wall_segment(data_, c_.coupling.resolution == "paper", c_.vessel);
   } catch (const InputError& error) {
     throw input::located(error, c_.resolved);
   }
@@ -120,7 +120,7 @@ void NetworkCoupling::choose() {
   at_rest_ = c_.coupling.events > 0 && c_.coupling.screens() && !(risk_ > c_.coupling.risk_limit);
 }
 
-coupling::Orifice NetworkCoupling::orifice(double opening) const {
+hemodynamics::Orifice NetworkCoupling::orifice(double opening) const {
   return {peridynamics::orifice_flow(c_.vessel.discharge_coefficient, opening, 1.0, c_.vessel.blood_density),
           middle_outside()};
 }
@@ -195,12 +195,12 @@ void NetworkCoupling::exchange(const Wall& wall) {
   parallel::on_root<RunError>(comm_, [&] {
     // All pressures of the network rise with the schedule; the network is linear in them, so it is solved at
     // full pressure, with an orifice that lets as much of the flow there out as the real one does now.
-    coupling::Orifice hole = orifice(wall.opening);
+    hemodynamics::Orifice hole = orifice(wall.opening);
     hole.strength = wall.schedule > 0 ? hole.strength / std::sqrt(wall.schedule) : 0;
     // One that a restart does anew counts once.
     if (windows_ == 0 || wall.time_s > last_time_) ++windows_;
     end(wall.time_s);
-    const coupling::VesselState now = coupling::bleed(*vessel_, wall.resistance_factor, hole);
+    const hemodynamics::VesselState now = hemodynamics::bleed(*vessel_, wall.resistance_factor, hole);
     leak_ = wall.schedule * now.leak;
     const hemodynamics::Viscosity& v = c_.hemodynamics.viscosity;
     const double fastest = wall.schedule * std::max(std::abs(now.flow_from), std::abs(now.flow_to));

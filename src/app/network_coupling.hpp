@@ -9,8 +9,8 @@
 #include "app/cascade_state.hpp"
 #include "app/console.hpp"
 #include "app/network_tier.hpp"
-#include "coupling/hand_over.hpp"
 #include "coupling/net_pressure.hpp"
+#include "coupling/wall_segment.hpp"
 #include "output/atomic_file.hpp"
 #include "output/checkpoint.hpp"
 #include "output/results_folder.hpp"
@@ -30,12 +30,12 @@ class NetworkCoupling {
   /// Collective. Throws InputError.
   const Configuration& hand_over();
   const QueriedVessel& vessel() const { return chosen_; }
-  double risk() const { return risk_; }               ///< of that vessel (screening/screening.hpp)
+  double risk() const { return risk_; }               ///< of that vessel (studies/screening/screening.hpp)
   double inflow() const { return solution_.inflow; }  ///< m3/s, of the network before the vessel ruptures
   const std::vector<double>& leaks() const { return solution_.leaks; }
   std::optional<double> flop() const { return solution_.flop; }
   /// The vessel's opening as seen from the network, area in m2.
-  coupling::Orifice orifice(double opening) const;
+  hemodynamics::Orifice orifice(double opening) const;
 
   bool two_way() const { return c_.coupling.mode == "two_way"; }
   /// Writes the network's files.
@@ -105,9 +105,9 @@ class NetworkCoupling {
   QueriedVessel chosen_;
   bool at_rest_ = false;
   double risk_ = 0;
-  std::unique_ptr<coupling::VesselInNetwork> vessel_;
+  std::unique_ptr<hemodynamics::VesselInNetwork> vessel_;
   coupling::VesselData data_;
-  coupling::Piece piece_;
+  coupling::WallSegment piece_;
   /// At the vessel's beginning, middle and end; the heart's by the last exchange.
   std::array<coupling::PressureParts, 3> parts_{};
   coupling::AxialLoad load_, first_load_;

@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "app/configuration.hpp"
-#include "coupling/vessel_in_network.hpp"
 #include "hemodynamics/hydrostatic.hpp"
-#include "hemodynamics/tree_flow.hpp"
-#include "hemodynamics/tree_statistics.hpp"
+#include "hemodynamics/steady/tree/tree_flow.hpp"
+#include "hemodynamics/steady/tree/tree_statistics.hpp"
+#include "hemodynamics/steady/vessel_in_network.hpp"
 #include "hemodynamics/vessel_lines.hpp"
 #include "network/graph.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/communicator.hpp"
-#include "screening/screening.hpp"
+#include "studies/screening/screening.hpp"
 
 namespace rhexis::app {
 
@@ -83,7 +83,7 @@ class NetworkTier {
   virtual NetworkSolution solve(const Say& say) = 0;
   /// A vessel among `network.query` within the network that was solved; valid as long as this. Null on ranks
   /// that do not hold it (never on the first). Collective.
-  virtual std::unique_ptr<coupling::VesselInNetwork> vessel(const QueriedVessel& queried) = 0;
+  virtual std::unique_ptr<hemodynamics::VesselInNetwork> vessel(const QueriedVessel& queried) = 0;
 };
 
 std::unique_ptr<NetworkTier> make_implicit_tier(const Configuration& c, parallel::Communicator comm);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/parameter.hpp"
-#include "hemodynamics/tree_flow.hpp"
+#include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "hemodynamics/viscosity.hpp"
 
 namespace rhexis::hemodynamics {

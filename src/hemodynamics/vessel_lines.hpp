@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "core/field_view.hpp"
-#include "hemodynamics/graph_flow.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "hemodynamics/hydrostatic.hpp"
-#include "hemodynamics/tree_flow.hpp"
+#include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "hemodynamics/viscosity.hpp"
 #include "network/graph.hpp"
 #include "network/tree_selection.hpp"

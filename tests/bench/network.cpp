@@ -10,8 +10,8 @@
 #include <set>
 
 #include "bench/cases.hpp"
-#include "hemodynamics/graph_flow.hpp"
-#include "hemodynamics/tree_statistics.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
+#include "hemodynamics/steady/tree/tree_statistics.hpp"
 #include "networks.hpp"
 #include "parallel/communicator.hpp"
 #include "support/trees.hpp"

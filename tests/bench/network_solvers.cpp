@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "hemodynamics/graph_flow.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "networks.hpp"
 #include "parallel/communicator.hpp"
 

@@ -4,7 +4,7 @@
 //
 // Seconds a vessel of the way up (total flow) and of the way down with statistics; errors are the largest of
 // all vessels against plain recursion in long double, up to 22 generations (memory).
-#include "hemodynamics/tree_flow.hpp"
+#include "hemodynamics/steady/tree/tree_flow.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "hemodynamics/tree_statistics.hpp"
+#include "hemodynamics/steady/tree/tree_statistics.hpp"
 #include "parallel/communicator.hpp"
 #include "support/trees.hpp"
 

@@ -1,7 +1,7 @@
 // A network cut over ranks has the flows and pressures of the whole: to 1e-10 of the inflow where the rest is
 // solved iteratively, to rounding where elimination solves it. Vessels are dealt out in blocks (neat cuts)
 // and one by one (nearly every junction shared).
-#include "hemodynamics/distributed_flow.hpp"
+#include "hemodynamics/steady/graph/distributed_flow.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ std::int64_t id_of(std::uint32_t junction) {
   return (std::int64_t{1} << 40) + std::int64_t{junction} * 7919 % 1000003;
 }
 
-struct Piece {
+struct WallSegment {
   DistributedGraph graph;
   std::vector<double> conductance;
   std::vector<std::uint32_t> vessel, junction;  // in the whole
@@ -36,7 +36,7 @@ struct Piece {
 };
 
 /// Conditions go to the first of the ranks that have the junction, those of pressure to all.
-Piece piece_of(const network::Graph& whole, const std::vector<double>& g, const Conditions& conditions,
+WallSegment piece_of(const network::Graph& whole, const std::vector<double>& g, const Conditions& conditions,
                Deal deal) {
   const auto comm = Communicator::world();
   const auto ranks = static_cast<std::size_t>(comm.size()), rank = static_cast<std::size_t>(comm.rank());
@@ -46,7 +46,7 @@ Piece piece_of(const network::Graph& whole, const std::vector<double>& g, const 
   };
   std::vector<std::size_t> first_holder(whole.junctions, ranks);
   std::vector<std::uint32_t> local(whole.junctions, 0xffffffff);
-  Piece piece;
+  WallSegment piece;
   const auto hold = [&](std::uint32_t j) {
     if (local[j] != 0xffffffff) return local[j];
     local[j] = static_cast<std::uint32_t>(piece.junction.size());
@@ -82,7 +82,7 @@ Piece piece_of(const network::Graph& whole, const std::vector<double>& g, const 
 GraphFlow expect_same(const network::Graph& whole, const std::vector<double>& g, const Conditions& conditions,
                       Deal deal, const GraphSolverOptions& options, double tolerance) {
   const auto comm = Communicator::world();
-  const Piece piece = piece_of(whole, g, conditions, deal);
+  const WallSegment piece = piece_of(whole, g, conditions, deal);
   const auto expected = solve_flow(whole, g, conditions, {.imbalance = 1e-14});
   const auto result = solve_flow(piece.graph, piece.conductance, piece.conditions, options, comm);
   EXPECT_NEAR(result.inflow / expected.inflow, 1, tolerance);
@@ -125,7 +125,7 @@ TEST(DistributedFlow, SmallFlowsOfATreePairAreAsPreciseAsLargeOnes) {
   const auto [graph, inlet, outlet] = networks::tree_pair(10);
   const auto g = networks::conductances(graph.vessels(), 1e12, 1);
   const Conditions conditions{pressure(inlet, 12000), pressure(outlet, 500)};
-  const Piece piece = piece_of(graph, g, conditions, Deal::one_by_one);
+  const WallSegment piece = piece_of(graph, g, conditions, Deal::one_by_one);
   const auto expected = solve_flow(graph, g, conditions);
   const auto result = solve_flow(piece.graph, piece.conductance, piece.conditions, {}, Communicator::world());
   for (std::size_t v = 0; v < piece.vessel.size(); ++v) {
@@ -171,7 +171,7 @@ TEST(DistributedFlow, DeadEndsAcrossRanksAndIsolatedJunctions) {
   for (const auto solver : {GraphSolver::automatic, GraphSolver::amg}) {
     expect_same(graph, g, conditions, Deal::blocks, {.solver = solver}, 1e-10);
   }
-  const Piece piece = piece_of(graph, g, conditions, Deal::one_by_one);
+  const WallSegment piece = piece_of(graph, g, conditions, Deal::one_by_one);
   const auto result = solve_flow(piece.graph, piece.conductance, piece.conditions, {}, Communicator::world());
   for (std::size_t v = 0; v < piece.vessel.size(); ++v) {
     if (piece.vessel[v] >= 4) {
@@ -180,7 +180,7 @@ TEST(DistributedFlow, DeadEndsAcrossRanksAndIsolatedJunctions) {
   }
 }
 
-std::string message_of(const Piece& piece, const GraphSolverOptions& options = {}) {
+std::string message_of(const WallSegment& piece, const GraphSolverOptions& options = {}) {
   try {
     solve_flow(piece.graph, piece.conductance, piece.conditions, options, Communicator::world());
   } catch (const InputError& error) {
@@ -226,8 +226,8 @@ TEST(DistributedFlowErrors, OneRanksMistakeIsEveryRanksError) {
   const auto graph = networks::graph(5, {{0, 1}, {1, 2}, {2, 3}, {3, 4}});
   const std::vector<double> g(4, 1.0);
   const bool is_last = Communicator::world().rank() == Communicator::world().size() - 1;
-  Piece piece = piece_of(graph, g, {pressure(0, 1), pressure(4, 0)}, Deal::blocks);
-  const Piece good = piece;
+  WallSegment piece = piece_of(graph, g, {pressure(0, 1), pressure(4, 0)}, Deal::blocks);
+  const WallSegment good = piece;
   if (is_last) piece.conductance.back() = -1;
   expect_on_all_ranks(message_of(piece), "has conductance -1");
   piece = good;
@@ -242,7 +242,7 @@ TEST(DistributedFlowErrors, OneRanksMistakeIsEveryRanksError) {
 TEST(DistributedFlowErrors, ConditionsThatContradictEachOther) {
   // Every rank has one vessel of a star whose centre is fixed, by each at a pressure of its own.
   const auto comm = Communicator::world();
-  Piece piece;
+  WallSegment piece;
   piece.graph.local = networks::graph(2, {{0, 1}});
   piece.graph.junction_id = {1000, comm.rank()};
   piece.conductance = {1};

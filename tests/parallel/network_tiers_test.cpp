@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "hemodynamics/distributed_flow.hpp"
+#include "hemodynamics/steady/graph/distributed_flow.hpp"
 #include "hemodynamics/poiseuille.hpp"
-#include "hemodynamics/tree_flow.hpp"
+#include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "support/trees.hpp"
 
 namespace rhexis::hemodynamics {

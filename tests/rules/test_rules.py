@@ -24,12 +24,11 @@ MAY_INCLUDE = {
     "peridynamics": {"parallel"},
     "network": {"parallel"},
     "hemodynamics": {"network", "parallel"},
-    "screening": {"parallel", "network", "hemodynamics"},
     "coupling": {"parallel", "network", "hemodynamics", "peridynamics"},
-    "ensemble": {"parallel", "network", "peridynamics"},
+    "studies": {"parallel", "network", "hemodynamics", "peridynamics"},
     "output": {"parallel"},
     "insitu": {"parallel"},
-    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "screening", "coupling", "ensemble", "output", "insitu"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "studies", "output", "insitu"},
 }
 
 # Folder -> its rooms -> rooms of the same folder that they may include, besides themselves and the files outside any room,

@@ -1,0 +1,154 @@
+#include "hemodynamics/steady/graph/haematocrit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "hemodynamics/phase_separation.hpp"
+
+namespace rhexis::hemodynamics {
+namespace {
+
+constexpr double densest = 0.99;  ///< haematocrit; no room for more cells
+/// Flows below this share of the largest are round-off: they carry nothing.
+constexpr double no_flow = 1e-14;
+constexpr double smallest_step = 1.0 / 64;
+
+/// Vessels at each junction, by the direction of their blood.
+struct Directed {
+  std::vector<std::uint32_t> first,
+      vessel;                           ///< vessels that leave junction j: vessel[first[j] .. first[j + 1])
+  std::vector<double> inflow, cells;    ///< [J] what has arrived at a junction, m3/s
+  std::vector<std::uint32_t> order;     ///< junctions from high pressure to low
+  std::vector<std::uint32_t> bringing;  ///< [J] a vessel that brings blood, or none
+  std::vector<std::uint32_t> arrivals;  ///< [J] vessels that bring blood
+};
+
+constexpr std::uint32_t none = 0xffffffff;
+
+Directed finished(Directed d, const network::Graph& g) {
+  d.inflow.assign(g.junctions, 0.0);
+  d.cells.assign(g.junctions, 0.0);
+  return d;
+}
+
+Directed direct(const network::Graph& g, const GraphFlow& flow, double least) {
+  Directed d;
+  d.first.assign(g.junctions + 1, 0);
+  d.bringing.assign(g.junctions, none);
+  const auto upstream = [&](std::size_t v) { return flow.flow[v] > 0 ? g.from[v] : g.to[v]; };
+  const auto downstream = [&](std::size_t v) { return flow.flow[v] > 0 ? g.to[v] : g.from[v]; };
+  for (std::size_t v = 0; v < g.vessels(); ++v) {
+    if (std::abs(flow.flow[v]) <= least) continue;
+    ++d.first[upstream(v) + 1];
+    d.bringing[downstream(v)] = static_cast<std::uint32_t>(v);
+  }
+  std::partial_sum(d.first.begin(), d.first.end(), d.first.begin());
+  d.vessel.resize(d.first.back());
+  std::vector<std::uint32_t> next(d.first.begin(), d.first.end() - 1);
+  for (std::size_t v = 0; v < g.vessels(); ++v) {
+    if (std::abs(flow.flow[v]) > least) d.vessel[next[upstream(v)]++] = static_cast<std::uint32_t>(v);
+  }
+  // Blood can only run downhill, so a junction's turn comes when all that flows into it has arrived. Counting
+  // arrivals, not comparing pressures: these may be equal to the last digit at both ends of a wide vessel.
+  d.arrivals.assign(g.junctions, 0);
+  for (const std::uint32_t v : d.vessel) ++d.arrivals[downstream(v)];
+  std::vector<std::uint32_t> awaited = d.arrivals;
+  std::size_t done = 0;
+  const auto pass_on = [&] {
+    for (; done < d.order.size(); ++done) {
+      const std::uint32_t j = d.order[done];
+      for (std::uint32_t k = d.first[j]; k < d.first[j + 1]; ++k) {
+        std::uint32_t& left = awaited[downstream(d.vessel[k])];
+        if (left > 0 && --left == 0) d.order.push_back(downstream(d.vessel[k]));
+      }
+    }
+  };
+  for (std::uint32_t j = 0; j < g.junctions; ++j) {
+    if (awaited[j] == 0) d.order.push_back(j);
+  }
+  pass_on();
+  if (d.order.size() == g.junctions) return finished(std::move(d), g);
+  // Round-off can make tiny flows run in circles: these are cut at their highest junction.
+  std::vector<std::uint32_t> waiting;
+  for (std::uint32_t j = 0; j < g.junctions; ++j) {
+    if (awaited[j] > 0) waiting.push_back(j);
+  }
+  std::sort(waiting.begin(), waiting.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return flow.pressure[a] > flow.pressure[b]; });
+  for (const std::uint32_t j : waiting) {
+    if (awaited[j] == 0) continue;
+    awaited[j] = 0;
+    d.order.push_back(j);
+    pass_on();
+  }
+  return finished(std::move(d), g);
+}
+
+}  // namespace
+
+std::vector<double> carried_haematocrit(const network::Graph& g, const GraphFlow& flow,
+                                        double inflow_haematocrit) {
+  double largest = 0;
+  for (const double q : flow.flow) largest = std::max(largest, std::abs(q));
+  Directed d = direct(g, flow, no_flow * largest);
+  std::vector<double> haematocrit(g.vessels(), inflow_haematocrit);
+  for (const std::uint32_t j : d.order) {
+    const std::uint32_t begin = d.first[j], end = d.first[j + 1];
+    if (begin == end) continue;
+    double out = 0;
+    for (std::uint32_t k = begin; k < end; ++k) out += std::abs(flow.flow[d.vessel[k]]);
+    // What does not arrive through vessels enters the network here.
+    const double enters = std::max(0.0, out - d.inflow[j]);
+    const double mixed = (d.cells[j] + enters * inflow_haematocrit) / (d.inflow[j] + enters);
+    const bool bifurcates =
+        end - begin == 2 && d.arrivals[j] == 1 && enters <= no_flow * largest + 1e-9 * out;
+    for (std::uint32_t k = begin; k < end; ++k) haematocrit[d.vessel[k]] = mixed;
+    if (bifurcates && mixed > 0) {
+      const std::uint32_t a = d.vessel[begin], b = d.vessel[begin + 1];
+      const double qa = std::abs(flow.flow[a]), qb = std::abs(flow.flow[b]);
+      const double cells = mixed * (qa + qb);
+      const double fraction = red_cell_fraction(qa / (qa + qb), mixed, 2e6 * g.radius[d.bringing[j]],
+                                                2e6 * g.radius[a], 2e6 * g.radius[b]);
+      const double into_a = std::clamp(cells * fraction, cells - densest * qb, densest * qa);
+      haematocrit[a] = into_a / qa;
+      haematocrit[b] = std::max(0.0, cells - into_a) / qb;
+    }
+    for (std::uint32_t k = begin; k < end; ++k) {
+      const std::uint32_t v = d.vessel[k];
+      const std::uint32_t there = flow.flow[v] > 0 ? g.to[v] : g.from[v];
+      d.inflow[there] += std::abs(flow.flow[v]);
+      d.cells[there] += std::abs(flow.flow[v]) * haematocrit[v];
+    }
+  }
+  return haematocrit;
+}
+
+HaematocritFlow find_haematocrit(const network::Graph& graph, const FlowOfHaematocrit& solve,
+                                 const HaematocritOptions& options) {
+  HaematocritFlow result;
+  std::vector<double> used(graph.vessels(), options.inflow_haematocrit);
+  double step = 1, before = INFINITY;
+  std::int64_t solver_iterations = 0;
+  while (result.iterations < options.max_iterations) {
+    ++result.iterations;
+    result.flow = solve(used);
+    solver_iterations += result.flow.iterations;
+    // What is reported is carried by the flow that is reported: cells are conserved whether this has
+    // converged or not.
+    result.haematocrit = carried_haematocrit(graph, result.flow, options.inflow_haematocrit);
+    result.change = 0;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+      result.change = std::max(result.change, std::abs(result.haematocrit[v] - used[v]));
+    }
+    result.converged = result.change <= options.tolerance;
+    if (result.converged) break;
+    if (result.change > 0.9 * before) step = std::max(smallest_step, step / 2);
+    before = result.change;
+    for (std::size_t v = 0; v < used.size(); ++v) used[v] += step * (result.haematocrit[v] - used[v]);
+  }
+  result.flow.iterations = solver_iterations;
+  return result;
+}
+
+}  // namespace rhexis::hemodynamics

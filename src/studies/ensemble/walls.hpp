@@ -1,0 +1,29 @@
+/// Walls with scattered properties, each a function of (seed, number), so that the same walls meet every
+/// pressure (common random numbers): differences between pressures are then none of chance.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "studies/ensemble/parameters.hpp"
+#include "peridynamics/parameters.hpp"
+
+namespace rhexis::ensemble {
+
+/// What a wall's properties are multiplied by; 1 where the spread is 0.
+struct WallFactors {
+  double strength = 1, thickness = 1, stiffness = 1;
+  bool operator==(const WallFactors&) const = default;
+};
+
+WallFactors draw_wall(const Parameters& p, std::int64_t wall);
+
+/// The mean vessel `v` (resolved), its wall changed by `f`. Particles stay where they are: spacing and
+/// horizon are those of the mean.
+peridynamics::Parameters with_wall(peridynamics::Parameters v, const WallFactors& f);
+
+/// Throws InputError where a wall is thinner than one spacing. Returns warnings.
+std::vector<std::string> check_walls(const Parameters& p, const peridynamics::Parameters& v);
+
+}  // namespace rhexis::ensemble

@@ -1,0 +1,131 @@
+// Red cells at bifurcations, and the fixed point of haematocrit, viscosity and flow.
+#include "hemodynamics/steady/graph/haematocrit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hemodynamics/phase_separation.hpp"
+#include "hemodynamics/poiseuille.hpp"
+#include "support/trees.hpp"
+
+namespace rhexis::hemodynamics {
+namespace {
+
+TEST(PhaseSeparation, ConservesCellsWhicheverDaughterIsAsked) {
+  for (const double parent : {8.0, 15.0, 60.0}) {
+    for (const double a : {5.0, 8.0, 14.0}) {
+      for (double f = 0; f <= 1.0001; f += 0.05) {
+        const double one = red_cell_fraction(f, 0.4, parent, a, 9),
+                     two = red_cell_fraction(1 - f, 0.4, parent, 9, a);
+        EXPECT_NEAR(one + two, 1, 1e-12) << parent << " " << a << " " << f;
+      }
+    }
+  }
+}
+
+TEST(PhaseSeparation, Limits) {
+  EXPECT_EQ(red_cell_fraction(0.5, 0.45, 10, 8, 8), 0.5);
+  EXPECT_EQ(red_cell_fraction(0.01, 0.45, 10, 8, 8), 0);  // below the threshold no cell enters
+  EXPECT_EQ(red_cell_fraction(0.99, 0.45, 10, 8, 8), 1);
+  EXPECT_NEAR(red_cell_fraction(0.3, 0.45, 1e6, 8, 8), 0.3, 1e-4);  // wide vessels divide cells as blood
+  EXPECT_GT(red_cell_fraction(0.7, 0.45, 10, 8, 8), 0.7);  // the faster branch gets more than its share
+  // By hand: Dp = 10, Da = 6, Db = 8, H = 0.45, f = 0.4.
+  EXPECT_NEAR(red_cell_fraction(0.4, 0.45, 10, 6, 8), 0.3953, 1e-4);
+  EXPECT_EQ(red_cell_fraction(0.6, 0.1, 1.0, 1, 1), 1);
+}
+
+struct Problem {
+  network::Graph graph;
+  std::vector<network::Condition> conditions;
+
+  GraphFlow solve(std::span<const double> haematocrit) const {
+    std::vector<double> conductance;
+    for (std::size_t v = 0; v < graph.vessels(); ++v) {
+      const double eta = apparent_viscosity(test::in_vivo(), graph.radius[v], haematocrit[v]);
+      conductance.push_back(1 / poiseuille_resistance(graph.radius[v], graph.length[v], eta));
+    }
+    return solve_flow(graph, conductance, conditions, {.imbalance = 1e-13});
+  }
+};
+
+Problem random_tree(int generations) {
+  network::TreeRules rules = test::random_rules(generations);
+  rules.root_radius = 25e-6;
+  Problem p;
+  p.graph = network::TreePair(rules).materialise();
+  using Kind = network::Condition::Kind;
+  p.conditions = {{0, Kind::pressure, 8000, 0}, {std::uint32_t{1} << generations, Kind::pressure, 2000, 0}};
+  return p;
+}
+
+/// Cells in minus cells out of every junction but the ends.
+double worst_imbalance(const Problem& p, const HaematocritFlow& r) {
+  std::vector<double> cells(p.graph.junctions);
+  for (std::size_t v = 0; v < p.graph.vessels(); ++v) {
+    cells[p.graph.from[v]] -= r.flow.flow[v] * r.haematocrit[v];
+    cells[p.graph.to[v]] += r.flow.flow[v] * r.haematocrit[v];
+  }
+  for (const network::Condition& c : p.conditions) cells[c.junction] = 0;
+  double worst = 0;
+  for (const double c : cells) worst = std::max(worst, std::abs(c));
+  return worst / r.flow.inflow;
+}
+
+TEST(Haematocrit, FixedPointOfATreeConservesCells) {
+  const Problem p = random_tree(7);
+  const auto solve = [&](std::span<const double> h) { return p.solve(h); };
+  const HaematocritFlow r = find_haematocrit(p.graph, solve, {});
+  EXPECT_TRUE(r.converged) << r.iterations << " " << r.change;
+  EXPECT_LT(worst_imbalance(p, r), 1e-13);
+  double least = 1, most = 0;
+  for (const double h : r.haematocrit) {
+    least = std::min(least, h);
+    most = std::max(most, h);
+  }
+  EXPECT_LT(least, 0.35);  // unequal bifurcations do separate
+  EXPECT_GT(most, 0.5);
+  EXPECT_NEAR(r.haematocrit[0], 0.45, 1e-12);
+  EXPECT_NEAR(r.haematocrit[1], 0.45, 1e-12);  // all that went in comes out
+  // A fixed point: the flow of these haematocrits carries these haematocrits.
+  const std::vector<double> again = carried_haematocrit(p.graph, p.solve(r.haematocrit), 0.45);
+  for (std::size_t v = 0; v < again.size(); ++v) EXPECT_NEAR(again[v], r.haematocrit[v], 1e-6);
+}
+
+TEST(Haematocrit, SymmetricBifurcationsChangeNothing) {
+  Problem p = random_tree(5);
+  p.graph = network::TreePair(test::plain_rules(5)).materialise();
+  p.conditions[1].junction = 32;
+  const HaematocritFlow r =
+      find_haematocrit(p.graph, [&](std::span<const double> h) { return p.solve(h); }, {});
+  EXPECT_EQ(r.iterations, 1);
+  for (const double h : r.haematocrit) EXPECT_NEAR(h, 0.45, 1e-12);
+}
+
+TEST(Haematocrit, NotConvergingIsReportedAndCellsAreConservedAllTheSame) {
+  const Problem p = random_tree(6);
+  HaematocritOptions options;
+  options.max_iterations = 2;
+  const HaematocritFlow r = find_haematocrit(
+      p.graph, [&](std::span<const double> h) { return p.solve(h); }, options);
+  EXPECT_FALSE(r.converged);
+  EXPECT_EQ(r.iterations, 2);
+  EXPECT_GT(r.change, options.tolerance);
+  EXPECT_LT(worst_imbalance(p, r), 1e-13);
+}
+
+TEST(Haematocrit, DeadEndsKeepTheInflowsHaematocrit) {
+  Problem p = random_tree(3);
+  p.graph.from.push_back(3);
+  p.graph.to.push_back(static_cast<std::uint32_t>(p.graph.junctions++));
+  p.graph.radius.push_back(10e-6);
+  p.graph.length.push_back(1e-4);
+  const HaematocritFlow r =
+      find_haematocrit(p.graph, [&](std::span<const double> h) { return p.solve(h); }, {});
+  EXPECT_TRUE(r.converged);
+  EXPECT_EQ(r.flow.flow.back(), 0);
+  EXPECT_EQ(r.haematocrit.back(), 0.45);
+}
+
+}  // namespace
+}  // namespace rhexis::hemodynamics
