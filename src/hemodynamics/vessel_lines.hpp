@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/field_view.hpp"
-#include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "hemodynamics/hydrostatic.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "hemodynamics/viscosity.hpp"
 #include "network/graph.hpp"

@@ -37,7 +37,7 @@ struct WallSegment {
 
 /// Conditions go to the first of the ranks that have the junction, those of pressure to all.
 WallSegment piece_of(const network::Graph& whole, const std::vector<double>& g, const Conditions& conditions,
-               Deal deal) {
+                     Deal deal) {
   const auto comm = Communicator::world();
   const auto ranks = static_cast<std::size_t>(comm.size()), rank = static_cast<std::size_t>(comm.rank());
   const auto rank_of = [&](std::size_t v) {

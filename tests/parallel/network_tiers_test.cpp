@@ -8,8 +8,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "hemodynamics/steady/graph/distributed_flow.hpp"
 #include "hemodynamics/poiseuille.hpp"
+#include "hemodynamics/steady/graph/distributed_flow.hpp"
 #include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "support/trees.hpp"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/ensemble/parameters.hpp"
 #include "peridynamics/parameters.hpp"
+#include "studies/ensemble/parameters.hpp"
 
 namespace rhexis::ensemble {
 

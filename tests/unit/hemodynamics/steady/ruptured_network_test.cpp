@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "core/error.hpp"
+
 namespace rhexis::hemodynamics {
 namespace {
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
-#include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "hemodynamics/poiseuille.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "support/trees.hpp"
 
 namespace rhexis::hemodynamics {
