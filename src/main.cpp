@@ -1,16 +1,16 @@
 // rhexis: parse, build, run, report.
 #include "app/commands.hpp"
-#include "app/guarded.hpp"
-#include "app/interrupt.hpp"
-#include "app/terminal.hpp"
+#include "runtime/guarded.hpp"
+#include "runtime/interrupt.hpp"
+#include "runtime/terminal.hpp"
 #include "parallel/communicator.hpp"
 
 int main(int argc, char** argv) {
-  rhexis::app::open_missing_streams();
-  rhexis::app::prepare_signals();
+  rhexis::runtime::open_missing_streams();
+  rhexis::runtime::prepare_signals();
   const rhexis::parallel::Session session(argc, argv);
   const auto world = rhexis::parallel::Communicator::world();
   const rhexis::app::Command command = rhexis::app::parse_command_line(argc, argv, world);
   if (command.action == rhexis::app::Action::nothing) return command.status;
-  return rhexis::app::guarded(world, [&] { return rhexis::app::carry_out(command, world); });
+  return rhexis::runtime::guarded(world, [&] { return rhexis::app::carry_out(command, world); });
 }

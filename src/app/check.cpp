@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <functional>
 
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 #include "app/network_coupling.hpp"
-#include "app/run_base.hpp"
-#include "app/stopwatch.hpp"
+#include "app/vessel_run.hpp"
+#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "parallel/together.hpp"
@@ -44,7 +44,7 @@ double seconds_per_step(const Configuration& c, const Lattice& lattice, parallel
 
 /// `say_more`: what else there is to say of the vessel.
 void check_wall(const Configuration& c, parallel::Communicator comm,
-                const std::function<void(Console&)>& say_more) {
+                const std::function<void(runtime::Console&)>& say_more) {
   const Lattice lattice = peridynamics::make_lattice(c.vessel);
   const BondFamilies& families = *c.families;
   const bool periodic = peridynamics::end_condition(c.vessel) == peridynamics::EndCondition::axial_periodic;
@@ -53,7 +53,7 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
       comm.all_reduce(seconds_per_step(c, lattice, c.is_ensemble() ? parallel::Communicator::self() : comm),
                       parallel::Reduce::max);
 
-  Console console(comm.is_root(), false);
+  runtime::Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
   if (say_more) say_more(console);
@@ -89,7 +89,7 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   if (c.model == "vessel") {
     console.item("load", fmt::format("{} ({})", quantity(peridynamics::highest_pressure(c.vessel), "Pa"),
                                      peridynamics::describe_schedule(c.vessel)));
-    say_risk(console, c.vessel);
+    print_risk(console, c.vessel);
   }
   console.item("time step", fmt::format("{} ({:.0f} % of the stable {}), {} steps",
                                         quantity(c.time_step, "s"), 100 * c.time_step / c.stable_time_step,
@@ -130,7 +130,7 @@ void check(const Configuration& c, parallel::Communicator comm) {
     // The wall is known when the network has been solved.
     Configuration solved = c;
     solved.network.statistics = false;
-    Console console(comm.is_root(), false);
+    runtime::Console console(comm.is_root(), false);
     console.line("Solving the network, which says what the wall and its load are:");
     NetworkCoupling coupling(solved, comm, console);
     if (coupling.at_rest()) {
@@ -139,7 +139,7 @@ void check(const Configuration& c, parallel::Communicator comm) {
                       c.file, text(c.coupling.risk_limit)));
       return;
     }
-    check_wall(coupling.hand_over(), comm, [&](Console& to) { coupling.say_header(to); });
+    check_wall(coupling.hand_over(), comm, [&](runtime::Console& to) { coupling.print_header(to); });
   } else {
     check_wall(c, comm, {});
   }

@@ -9,14 +9,14 @@
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 #include "app/coupled_run.hpp"
 #include "app/ensemble_run.hpp"
 #include "app/folder_plan.hpp"
 #include "app/network_run.hpp"
-#include "app/stopwatch.hpp"
-#include "app/terminal.hpp"
-#include "app/version.hpp"
+#include "core/stopwatch.hpp"
+#include "runtime/terminal.hpp"
+#include "runtime/version.hpp"
 #include "app/vessel_run.hpp"
 #include "input/keys.hpp"
 #include "output/unfinished_run.hpp"
@@ -27,8 +27,8 @@ namespace {
 
 /// The exit status of what does nothing but print.
 int told(parallel::Communicator comm) {
-  const std::string failure = output_failure();
-  if (!failure.empty()) print_error(fmt::format("rhexis: stdout could not be written: {}\n", failure));
+  const std::string failure = runtime::output_failure();
+  if (!failure.empty()) runtime::print_error(fmt::format("rhexis: stdout could not be written: {}\n", failure));
   return comm.all_reduce(std::int64_t{!failure.empty()}, parallel::Reduce::max) != 0 ? 3 : 0;
 }
 
@@ -49,7 +49,7 @@ std::string unfinished_run(const std::filesystem::path& folder) {
 }
 
 /// The same of the folder of results and of the one that the checkpoint is in; on the root only.
-std::vector<std::string> unfinished_runs(const RunOptions& options, parallel::Communicator comm) {
+std::vector<std::string> unfinished_runs(const runtime::RunOptions& options, parallel::Communicator comm) {
   std::vector<std::string> texts;
   if (!comm.is_root()) return texts;
   std::vector<std::filesystem::path> folders = {options.directory};
@@ -73,7 +73,7 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   command.arguments.assign(argv, argv + argc);
   CLI::App cli{"Rhexis: rupture of blood vessels by peridynamics, seen while it runs."};
   cli.set_version_flag(
-      "--version", [] { return build_description(); }, "What this program is and was built with");
+      "--version", [] { return runtime::build_description(); }, "What this program is and was built with");
   cli.require_subcommand(1);
 
   CLI::App* run = cli.add_subcommand("run", "Simulate what an input file describes");
@@ -107,8 +107,8 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
     std::ostringstream out, problem;
     cli.exit(error, out, problem);
     if (comm.is_root()) {
-      print_out(out.str());
-      print_error(problem.str());
+      runtime::print_out(out.str());
+      runtime::print_error(problem.str());
     }
     command.status = asked ? told(comm) : 2;
     return command;
@@ -121,11 +121,11 @@ int carry_out(const Command& command, parallel::Communicator comm) {
   if (command.action == Action::keys) {
     Configuration unused;
     const std::string text = input::describe_keys(declare(unused), command.section);
-    if (comm.is_root()) print_out(text);
+    if (comm.is_root()) runtime::print_out(text);
     return told(comm);
   }
   const double started = seconds_now();
-  Console console(comm.is_root(), command.quiet);
+  runtime::Console console(comm.is_root(), command.quiet);
   if (const std::string& notice = parallel::threads_notice(); !notice.empty()) console.warning(notice);
   Configuration input;
   input.checks = command.action == Action::check;
@@ -133,7 +133,7 @@ int carry_out(const Command& command, parallel::Communicator comm) {
     label.empty() ? console.line(text) : console.item(label, text);
   };
   Configuration configuration = read_configuration(command.file, command.overrides, comm, std::move(input));
-  RunOptions options;
+  runtime::RunOptions options;
   options.directory = command.directory.empty()
                           ? std::filesystem::path("results") / std::filesystem::path(command.file).stem()
                           : std::filesystem::path(command.directory);
@@ -158,7 +158,7 @@ int carry_out(const Command& command, parallel::Communicator comm) {
     if (configuration.is_coupled()) return run_coupled(std::move(configuration), options, comm);
     return VesselRun(std::move(configuration), options, comm).run();
   };
-  const Ending ending = run();
+  const runtime::Ending ending = run();
   return ending.interrupted() ? 128 + ending.signal : 0;
 }
 

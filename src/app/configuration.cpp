@@ -10,7 +10,7 @@
 
 #include "app/pictures.hpp"
 #include "app/scene_keys.hpp"
-#include "app/version.hpp"
+#include "runtime/version.hpp"
 #include "app/wall_memory.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -165,7 +165,7 @@ void resolve_vessel(Configuration& c, parallel::Communicator comm) {
 
 /// Who builds with a ParaView most likely looks at the files with it.
 void warn_of_an_old_paraview(Configuration& c) {
-  const std::string version = paraview_version();
+  const std::string version = runtime::paraview_version();
   int major = 0, minor = 0;
   if (std::sscanf(version.c_str(), "%d.%d", &major, &minor) != 2 ||
       std::pair(major, minor) >= std::pair(5, 12))

@@ -67,7 +67,7 @@ struct Configuration {
 
   bool checks = false;  ///< `rhexis check`, and no run
   /// Tells the user, at the terminal, of what takes a while or is to be known before it is done; may be
-  /// empty. A label and a text as Console::item has them, or no label.
+  /// empty. A label and a text as runtime::Console::item has them, or no label.
   std::function<void(const std::string& label, const std::string& text)> say;
 };
 

@@ -9,11 +9,12 @@
 #include "app/cascade_state.hpp"
 #include "app/checkpoint_input.hpp"
 #include "app/folder_plan.hpp"
+#include "app/pictures.hpp"
 #include "app/network_coupling.hpp"
 #include "app/network_files.hpp"
 #include "app/network_tables.hpp"
-#include "app/stopwatch.hpp"
-#include "app/version.hpp"
+#include "core/stopwatch.hpp"
+#include "runtime/version.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -25,33 +26,35 @@ namespace {
 
 /// Ruptures one after the other. Each event has a folder of its own, with all that a coupled run leaves; what
 /// the cascade adds is cascade.csv and run.json beside them, and after each event a checkpoint.
-class CascadeRun : private RunBase {
+class CascadeRun {
  public:
-  CascadeRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
-      : RunBase(std::move(configuration), std::move(options), comm), first_(c_) {
+  CascadeRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm)
+      : c_(std::move(configuration)),
+        comm_(comm),
+        session_(scene_of(c_), std::move(options), comm,
+                 {[this] { return output::Values(results_); }, [] { return runtime::Work{}; }}),
+        first_(c_) {
     first_.warnings.clear();
   }
 
-  Ending run() {
-    if (!options_.restart.empty()) read_checkpoint();
+  runtime::Ending run() {
+    if (!session_.options().restart.empty()) read_checkpoint();
     // What the input is warned of is told once, not by every event.
     const std::vector<std::string> warnings = std::exchange(c_.warnings, {});
-    say_title(console_, c_);
+    session_.print_title();
     open_cascade_folder();
     if (!state_.events.empty()) prepare_next_event();
     solve_network();
     if (!network_->at_rest() && !all_simulated()) c_ = network_->hand_over();
     if (restarts_within_event_) prepare_interrupted_event();
-    const Ending ending = recorded([&] {
-      start_insitu();
-      *event_pictures_ = std::move(*pictures_);
-      pictures_ = event_pictures_;
-      open_record();
-      for (const std::string& warning : warnings) warn(warning);
+    const runtime::Ending ending = session_.recorded([&] {
+      session_.start_pictures();
+      session_.open_record();
+      session_.warn(warnings);
       results_.cascade = nlohmann::ordered_json::array();
       if (!state_.events.empty()) write_table();
       std::string obstacle;  // to the next event
-      Ending last;
+      runtime::Ending last;
       const auto goes_on = [&] {
         return obstacle.empty() && !network_->at_rest() && !last.interrupted() && !all_simulated();
       };
@@ -71,13 +74,13 @@ class CascadeRun : private RunBase {
         }
       }
       results_.network = network_->network_results();
-      network_->write(*folder_);
-      finish_insitu();
-      make_movie();
+      network_->write(session_.folder());
+      session_.finish_pictures();
+      session_.make_movie();
       if (!obstacle.empty()) throw RunError(obstacle);
       return last.signal;
     });
-    say_summary(ending.interrupted() ? interrupted_by(ending.signal)
+    print_summary(ending.interrupted() ? runtime::interrupted_by(ending.signal)
                 : network_->at_rest()
                     ? fmt::format("no other vessel's risk is above {}", text(c_.coupling.risk_limit))
                     : "after cascade.events");
@@ -89,7 +92,7 @@ class CascadeRun : private RunBase {
 
   /// The events so far, and whether another one was going on.
   void read_checkpoint() {
-    output::CheckpointReader file(options_.restart, comm_);
+    output::CheckpointReader file(session_.options().restart, comm_);
     if (!file.holds(cascade_name))
       file.refuse("the checkpoint is not of a cascade, as cascade.events asks for");
     state_ = read_cascade(file);
@@ -114,7 +117,7 @@ class CascadeRun : private RunBase {
   /// With what the events so far left.
   void solve_network() {
     network_.reset();
-    network_.emplace(c_, comm_, console_);
+    network_.emplace(c_, comm_, session_.console());
     network_->set_cascade(&state_);
     if (!state_.events.empty()) note_what_followed();
   }
@@ -122,47 +125,47 @@ class CascadeRun : private RunBase {
   /// The checkpoint is read before anything is written.
   void prepare_interrupted_event() {
     if (network_->at_rest())
-      throw InputError(options_.restart.string() +
+      throw InputError(session_.options().restart.string() +
                        ": the network is not as it was: no vessel is at risk now");
-    interrupted_event_ = std::make_unique<VesselRun>(c_, event_options(options_.restart), comm_, &*network_);
+    interrupted_event_ = std::make_unique<VesselRun>(c_, event_options(session_.options().restart), comm_, &*network_);
     interrupted_event_->prepare();
   }
 
-  RunOptions event_options(const std::filesystem::path& restart) const {
-    RunOptions options = options_;
-    options.folder = folder_->subfolder(event_name(state_.events.size() + 1));
+  runtime::RunOptions event_options(const std::filesystem::path& restart) const {
+    runtime::RunOptions options = session_.options();
+    options.folder = session_.folder().subfolder(event_name(state_.events.size() + 1));
     options.directory = options.folder->path();
     options.restart = restart;
     options.started = seconds_now();
-    options.pictures = event_pictures_;
+    options.pictures = session_.pictures();
     return options;
   }
 
   /// What came after the checkpoint is no part of this cascade.
   void open_cascade_folder() {
-    output::FolderPlan plan = folder_plan(c_, options_);
+    output::FolderPlan plan = folder_plan(c_, session_.options());
     const std::size_t done = state_.events.size();
     for (std::size_t event = done + 1; event <= static_cast<std::size_t>(c_.coupling.events); ++event)
       plan.writes.names.push_back(event_checkpoint_name(event));
-    if (!options_.restart.empty()) {
+    if (!session_.options().restart.empty()) {
       const std::size_t kept = done + (restarts_within_event_ ? 1 : 0);
       plan.drops = [kept](const std::string& name) { return event_number(name) > kept; };
     }
-    open_folder(plan);
+    session_.open_folder(plan);
   }
 
-  Ending simulate() {
+  runtime::Ending simulate() {
     const auto number = state_.events.size() + 1;
     const QueriedVessel vessel = network_->vessel();
-    console_.line(fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, network_->risk()));
-    pictures_->steps_before = state_.steps_before;
-    pictures_->seconds_before = state_.elapsed;
+    session_.console().line(fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, network_->risk()));
+    session_.pictures()->steps_before = state_.steps_before;
+    session_.pictures()->seconds_before = state_.elapsed;
     const double pressure = network_->intact_pressure();
     std::unique_ptr<VesselRun> run = std::exchange(interrupted_event_, nullptr);
     if (!run) run = std::make_unique<VesselRun>(c_, event_options({}), comm_, &*network_);
-    const Ending ending = run->run();
-    spent_.add(run->spent());
-    const output::Results& r = run->results();
+    const runtime::Ending ending = run->run();
+    session_.spent().add(run->spent());
+    const Results& r = run->results();
     CascadeEvent event{.vessel = vessel,
                        .risk = network_->risk(),
                        .net_pressure = pressure,
@@ -193,7 +196,7 @@ class CascadeRun : private RunBase {
       if (event.inflow_after && !alike(*event.inflow_after, network_->inflow())) {
         throw InputError(fmt::format(
             "{}: the network is not as it was: after event {} its inflow was {} m3/s, and now is {} m3/s",
-            options_.restart.string(), state_.events.size(), *event.inflow_after, network_->inflow()));
+            session_.options().restart.string(), state_.events.size(), *event.inflow_after, network_->inflow()));
       }
       event.inflow_after = network_->inflow();
       if (event.ruptured == true && !network_->leaks().empty()) event.leak = network_->leaks().back();
@@ -205,8 +208,8 @@ class CascadeRun : private RunBase {
 
   /// Between events, so that nothing is lost if the run ends before the next one.
   void write_checkpoint() {
-    const Stopwatch watch(spent_.output);
-    output::CheckpointWriter file(folder_->claim(event_checkpoint_name(state_.events.size())), version(),
+    const Stopwatch watch(session_.spent().output);
+    output::CheckpointWriter file(session_.folder().claim(event_checkpoint_name(state_.events.size())), runtime::version(),
                                   comm_);
     write_input(file, c_);
     save_cascade(state_, comm_, file);
@@ -219,7 +222,7 @@ class CascadeRun : private RunBase {
     results_.cascade = nlohmann::ordered_json::array();
     for (const CascadeEvent& event : state_.events)
       results_.cascade.push_back(to_json(event, results_.cascade.size() + 1));
-    const std::filesystem::path path = folder_->claim("cascade.csv");
+    const std::filesystem::path path = session_.folder().claim("cascade.csv");
     parallel::on_root<RunError>(comm_, [&] {
       const auto columns = {"event",
                             "time_s",
@@ -251,11 +254,11 @@ class CascadeRun : private RunBase {
     });
   }
 
-  void say_summary(const std::string& why_ended) {
-    console_.line("Cascade:");
+  void print_summary(const std::string& why_ended) {
+    session_.console().line("Cascade:");
     if (comm_.is_root()) {
       for (const auto& event : results_.cascade) {
-        console_.item(
+        session_.console().item(
             fmt::format("event {}", event["event"].get<int>()),
             fmt::format("{}, risk {:.3f}: {}", event["name"].get<std::string>(), event["risk"].get<double>(),
                         event["ruptured"] == true
@@ -266,26 +269,28 @@ class CascadeRun : private RunBase {
                             : std::string(event["ruptured"].is_null() ? "interrupted" : "held")));
       }
     }
-    console_.item("ended", why_ended);
-    say_cost(performance());
+    session_.console().item("ended", why_ended);
+    session_.print_cost(session_.performance());
   }
 
+  Configuration c_;
+  parallel::Communicator comm_;
+  Results results_;
+  runtime::RunSession session_;
   Configuration first_;  ///< as it was read, without warnings
   CascadeState state_;   ///< of the first rank; elsewhere without what only that knows of vessels
   std::optional<NetworkCoupling> network_;
   bool restarts_within_event_ = false;
   std::unique_ptr<VesselRun> interrupted_event_;
-  /// What the events draw with; filled once the folder of results is there.
-  std::shared_ptr<Pictures> event_pictures_ = std::make_shared<Pictures>();
 };
 
 }  // namespace
 
-Ending run_coupled(Configuration configuration, const RunOptions& options, parallel::Communicator comm) {
+runtime::Ending run_coupled(Configuration configuration, const runtime::RunOptions& options, parallel::Communicator comm) {
   if (configuration.coupling.events > 0) return CascadeRun(std::move(configuration), options, comm).run();
-  Console console(comm.is_root(), options.quiet);
-  say_title(console, configuration);
-  RunOptions with_folder = options;
+  runtime::Console console(comm.is_root(), options.quiet);
+  runtime::print_title(console, configuration.title, configuration.file);
+  runtime::RunOptions with_folder = options;
   with_folder.folder.emplace(folder_plan(configuration, options), comm);
   NetworkCoupling coupling(configuration, comm, console);
   const Configuration& with_vessel = coupling.hand_over();

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 #include "app/graph_network.hpp"
 #include "app/network_tier.hpp"
-#include "app/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "hemodynamics/steady/graph/distributed_flow.hpp"

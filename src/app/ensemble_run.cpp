@@ -8,8 +8,9 @@
 #include <set>
 
 #include "app/folder_plan.hpp"
-#include "app/interrupt.hpp"
-#include "app/stopwatch.hpp"
+#include "app/pictures.hpp"
+#include "runtime/interrupt.hpp"
+#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/text_file.hpp"
@@ -17,6 +18,7 @@
 #include "output/atomic_file.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/together.hpp"
+#include "peridynamics/engine/bond_kernel.hpp"
 #include "studies/ensemble/sample_table.hpp"
 
 namespace rhexis::app {
@@ -47,9 +49,16 @@ std::string table_of(const std::vector<Sample>& samples) {
 
 }  // namespace
 
-EnsembleRun::EnsembleRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
-    : RunBase(std::move(configuration), std::move(options), comm) {
-  if (!options_.restart.empty()) {
+EnsembleRun::EnsembleRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm)
+    : c_(std::move(configuration)),
+      comm_(comm),
+      session_(scene_of(c_), std::move(options), comm,
+               {[this] { return output::Values(results_); },
+                [this] {
+                  return runtime::Work{.bond_evaluations = bond_evaluations_,
+                                       .flop_per_evaluation = 0.5 * peridynamics::flop_per_bond};
+                }}) {
+  if (!session_.options().restart.empty()) {
     throw InputError(
         "--restart is for scenes with one wall after the other; an ensemble goes on where it stopped when "
         "the "
@@ -57,27 +66,27 @@ EnsembleRun::EnsembleRun(Configuration configuration, RunOptions options, parall
   }
 }
 
-Ending EnsembleRun::run() {
+runtime::Ending EnsembleRun::run() {
   read_earlier();
-  output::FolderPlan folder = folder_plan(c_, options_);
+  output::FolderPlan folder = folder_plan(c_, session_.options());
   if (earlier_ > 0) folder.earlier = output::EarlierResults::keep;
-  open_folder(std::move(folder));
+  session_.open_folder(std::move(folder));
   plan();
-  const Ending ending = recorded([&] {
+  const runtime::Ending ending = session_.recorded([&] {
     open_results();
-    say_header();
+    print_header();
     run_samples();
     finish();
     return signal_;
   });
-  say_summary();
+  print_summary();
   return ending;
 }
 
 /// The samples that an earlier run left in the folder.
 void EnsembleRun::read_earlier() {
-  const std::filesystem::path path = options_.directory / "samples.csv",
-                              record = options_.directory / "run.json";
+  const std::filesystem::path path = session_.options().directory / "samples.csv",
+                              record = session_.options().directory / "run.json";
   std::string text;
   parallel::on_root<InputError>(comm_, [&] {
     if (!std::filesystem::exists(path)) return;
@@ -111,41 +120,42 @@ void EnsembleRun::plan() {
 }
 
 void EnsembleRun::open_results() {
-  open_record();
-  const std::filesystem::path path = folder_->claim("samples.csv");
+  session_.open_record();
+  const std::filesystem::path path = session_.folder().claim("samples.csv");
   parallel::on_root<RunError>(comm_, [&] { table_ = output::TableFile(path, table_of(samples_)); });
 }
 
-void EnsembleRun::say_header() {
+void EnsembleRun::print_header() {
   const peridynamics::Parameters& v = c_.vessel;
   const ensemble::Parameters& e = c_.ensemble;
-  say_input();
-  console_.item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}; spacing {}",
+  session_.print_title();
+  session_.warn(c_.warnings);
+  session_.console().item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}; spacing {}",
                                       quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
                                       quantity(v.length, "m"), v.ends, quantity(*v.spacing, "m")));
-  console_.item("pressures",
+  session_.console().item("pressures",
                 fmt::format("{} from {} to {} ({}), up to {}", e.pressures.size(), mmhg(e.pressures.front()),
                             mmhg(e.pressures.back()), v.schedule, quantity(v.end_time, "s")));
-  console_.item("walls", fmt::format("{} (seed {}); spreads: strength {}, thickness {}, stiffness {}",
+  session_.console().item("walls", fmt::format("{} (seed {}); spreads: strength {}, thickness {}, stiffness {}",
                                      e.samples, e.seed, text(e.strength_spread), text(e.thickness_spread),
                                      text(e.stiffness_spread)));
   const auto done = e.vessels() - static_cast<long long>(tasks_.size());
   const auto others = static_cast<long long>(earlier_) - done;
-  console_.item(
+  session_.console().item(
       "samples",
       fmt::format("{}, {} of them done before{}", grouped(e.vessels()), grouped(done),
                   others > 0 ? fmt::format("; {} others in samples.csv count too", grouped(others)) : ""));
-  say_surroundings();
+  session_.print_surroundings();
 }
 
 void EnsembleRun::run_samples() {
-  const InterruptGuard guard;
+  const runtime::InterruptGuard guard;
   const auto ranks = static_cast<std::size_t>(comm_.size());
   const auto total = static_cast<long>(c_.ensemble.vessels());
   const auto progress = [&](std::size_t next) {
     const auto ruptured =
         std::count_if(samples_.begin(), samples_.end(), [](const Sample& s) { return s.ruptured; });
-    console_.progress(total - static_cast<long>(tasks_.size() - next), total,
+    session_.console().progress(total - static_cast<long>(tasks_.size() - next), total,
                       fmt::format("{} ruptured", grouped(ruptured)), "sample");
   };
   progress(0);
@@ -168,7 +178,7 @@ int EnsembleRun::run_round(std::size_t first, std::size_t count) {
   std::vector<Sample> finished;
   std::string failure;
   {
-    const Stopwatch watch(spent_.solve);
+    const Stopwatch watch(session_.spent().solve);
     std::vector<Sample> own;
     try {
       const Stopwatch alone(sample_s_);
@@ -178,7 +188,7 @@ int EnsembleRun::run_round(std::size_t first, std::size_t count) {
         if (i >= count) continue;
         const auto& [wall, pressure] = tasks_[first + i];
         const auto sample = ensemble::simulate(c_.ensemble, c_.vessel, pressure, wall,
-                                               InterruptGuard::requested, bond_evaluations_);
+                                               runtime::InterruptGuard::requested, bond_evaluations_);
         if (!sample) break;
         own.push_back(*sample);
       }
@@ -191,12 +201,12 @@ int EnsembleRun::run_round(std::size_t first, std::size_t count) {
   keep(finished);
   failure = comm_.first_non_empty(failure);
   if (!failure.empty()) throw RunError(failure);
-  const auto signal = comm_.all_reduce(std::int64_t{InterruptGuard::requested()}, parallel::Reduce::max);
+  const auto signal = comm_.all_reduce(std::int64_t{runtime::InterruptGuard::requested()}, parallel::Reduce::max);
   return samples_.size() - earlier_ < tasks_.size() ? static_cast<int>(signal) : 0;
 }
 
 void EnsembleRun::keep(const std::vector<Sample>& finished) {
-  const Stopwatch watch(spent_.output);
+  const Stopwatch watch(session_.spent().output);
   samples_.insert(samples_.end(), finished.begin(), finished.end());
   parallel::on_root<RunError>(comm_, [&] {
     std::string rows;
@@ -211,9 +221,9 @@ void EnsembleRun::finish() {
   std::sort(samples_.begin(), samples_.end(), ensemble::comes_before);
   probabilities_ = ensemble::probabilities(samples_);
   {
-    const Stopwatch watch(spent_.output);
-    const std::filesystem::path samples = folder_->claim("samples.csv"),
-                                probability = folder_->claim("probability.csv");
+    const Stopwatch watch(session_.spent().output);
+    const std::filesystem::path samples = session_.folder().claim("samples.csv"),
+                                probability = session_.folder().claim("probability.csv");
     parallel::on_root<RunError>(comm_, [&] {
       output::write_atomically(samples, table_of(samples_));
       output::write_atomically(probability, ensemble::probability_table(probabilities_));
@@ -235,27 +245,27 @@ void EnsembleRun::finish() {
   if (now > 0) results_.ensemble["rank_seconds_per_sample"] = sample_s / static_cast<double>(now);
 }
 
-void EnsembleRun::say_summary() {
+void EnsembleRun::print_summary() {
   if (signal_ != 0) {
-    console_.important(fmt::format("Interrupted by {}; finished samples are saved. The same command goes on.",
-                                   signal_name(signal_)));
+    session_.console().important(fmt::format("Interrupted by {}; finished samples are saved. The same command goes on.",
+                                   runtime::signal_name(signal_)));
   } else {
-    console_.line("Done.");
+    session_.console().line("Done.");
   }
-  console_.line("    pressure    samples  ruptured  probability   95 % interval   mean onset");
+  session_.console().line("    pressure    samples  ruptured  probability   95 % interval   mean onset");
   for (const ensemble::Probability& p : probabilities_) {
     const auto [low, high] = p.interval();
-    console_.line(fmt::format("  {:>12}  {:>7}  {:>8}  {:>11.3f}  {:.3f} to {:.3f}  {:>11}", mmhg(p.pressure),
+    session_.console().line(fmt::format("  {:>12}  {:>7}  {:>8}  {:>11.3f}  {:.3f} to {:.3f}  {:>11}", mmhg(p.pressure),
                               p.samples, p.ruptured, p.value(), low, high,
                               p.mean_onset ? quantity(*p.mean_onset, "s", 3) : "none"));
   }
   const Json& each = results_.ensemble["rank_seconds_per_sample"];
-  console_.item("samples",
+  session_.console().item("samples",
                 fmt::format("{} in all, {} new; {}", grouped(static_cast<long long>(samples_.size())),
                             grouped(static_cast<long long>(samples_.size() - earlier_)),
                             each.is_null() ? "none simulated"
                                            : quantity(each.get<double>(), "s", 3) + " each on one rank"));
-  say_cost(performance());
+  session_.print_cost(session_.performance());
 }
 
 }  // namespace rhexis::app

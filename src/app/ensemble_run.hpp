@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/run_base.hpp"
+#include "app/configuration.hpp"
+#include "app/results.hpp"
+#include "runtime/run_session.hpp"
 #include "output/atomic_file.hpp"
 #include "studies/ensemble/probability.hpp"
 #include "studies/ensemble/sample.hpp"
@@ -15,12 +17,12 @@ namespace rhexis::app {
 /// Results are samples.csv, a row per vessel, kept while the run goes on, and probability.csv at its end. The
 /// same run into the same folder goes on from the rows that are there. Rows and their order do not depend on
 /// ranks, threads or restarts.
-class EnsembleRun : private RunBase {
+class EnsembleRun {
  public:
-  EnsembleRun(Configuration configuration, RunOptions options, parallel::Communicator comm);
+  EnsembleRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm);
 
   /// Throws RunError (after noting it in run.json) or InputError (nothing written).
-  Ending run();
+  runtime::Ending run();
 
  private:
   using Task = std::pair<std::int64_t, double>;  ///< wall, pressure
@@ -28,14 +30,17 @@ class EnsembleRun : private RunBase {
   void read_earlier();
   void plan();
   void open_results();
-  void say_header();
+  void print_header();
   void run_samples();
   int run_round(std::size_t first, std::size_t count);
   void keep(const std::vector<ensemble::Sample>& finished);
   void finish();
-  void say_summary();
-  std::optional<std::int64_t> bond_evaluations() const override { return bond_evaluations_; }
+  void print_summary();
 
+  Configuration c_;
+  parallel::Communicator comm_;
+  Results results_;
+  runtime::RunSession session_;
   std::vector<ensemble::Sample> samples_;  ///< all that are known, on every rank
   std::vector<Task> tasks_;                ///< samples to do
   std::vector<ensemble::Probability> probabilities_;

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 #include "app/graph_network.hpp"
 #include "app/network_tier.hpp"
-#include "app/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/memory.hpp"

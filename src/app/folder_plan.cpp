@@ -59,7 +59,7 @@ output::FutureFiles files_of(const Configuration& c, bool restarts) {
 
 }  // namespace
 
-output::FolderPlan folder_plan(const Configuration& c, const RunOptions& options) {
+output::FolderPlan folder_plan(const Configuration& c, const runtime::RunOptions& options) {
   output::FolderPlan plan{.directory = options.directory, .overwrite = options.overwrite};
   plan.reads = {c.file};
   plan.reads.insert(plan.reads.end(), c.network.files.begin(), c.network.files.end());

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "app/configuration.hpp"
-#include "app/run_options.hpp"
+#include "runtime/run_options.hpp"
 #include "output/results_folder.hpp"
 
 namespace rhexis::app {
 
 /// What the whole run does to its folder, but for what depends on a checkpoint: the checkpoints of a
 /// cascade's events, and the files of a restart whose names depend on its first step (see files_of_steps).
-output::FolderPlan folder_plan(const Configuration& c, const RunOptions& options);
+output::FolderPlan folder_plan(const Configuration& c, const runtime::RunOptions& options);
 
 /// The series of particles of a run from `first_step`, without an ending: a restart leaves the series of the
 /// run that it continues as it is.

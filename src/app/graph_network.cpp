@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 #include "app/network_tier.hpp"
-#include "app/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/steady/tree/tree_flow.hpp"

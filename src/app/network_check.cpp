@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "app/check.hpp"
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 #include "app/network_tier.hpp"
-#include "app/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/steady/tree/tree_statistics.hpp"
 #include "network/tree_pair.hpp"
@@ -40,7 +40,7 @@ double seconds_per_vessel(const Configuration& c, parallel::Communicator comm) {
 
 void check_network(const Configuration& c, parallel::Communicator comm) {
   const auto tier = checked_tier(c, comm);
-  Console console(comm.is_root(), false);
+  runtime::Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
   console.item("network", tier->description());

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "app/network_files.hpp"
-#include "app/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
@@ -18,7 +18,7 @@
 
 namespace rhexis::app {
 
-NetworkCoupling::NetworkCoupling(const Configuration& c, parallel::Communicator comm, Console& console)
+NetworkCoupling::NetworkCoupling(const Configuration& c, parallel::Communicator comm, runtime::Console& console)
     : c_(c), comm_(comm) {
   {
     const Stopwatch watch(network_s_);
@@ -248,7 +248,7 @@ LineSource& NetworkCoupling::lines() {
   return solution_.lines;
 }
 
-output::NetworkResults NetworkCoupling::network_results() const {
+NetworkResults NetworkCoupling::network_results() const {
   return app::network_results(solution_);
 }
 
@@ -279,7 +279,7 @@ nlohmann::ordered_json NetworkCoupling::results() const {
   return json;
 }
 
-void NetworkCoupling::say_header(Console& console) const {
+void NetworkCoupling::print_header(runtime::Console& console) const {
   console.item(
       "coupling",
       fmt::format("vessel {} ({}{}), length {}, net pressure {} to {}", chosen_.name, kind_text(chosen_.kind),
@@ -300,7 +300,7 @@ void NetworkCoupling::say_header(Console& console) const {
   }
 }
 
-void NetworkCoupling::say_summary(Console& console) const {
+void NetworkCoupling::print_summary(runtime::Console& console) const {
   if (two_way()) {
     console.item("bleeding",
                  fmt::format("{} at the end, {:.3g} uL in all, Reynolds number in the vessel up to {:.0f}; "

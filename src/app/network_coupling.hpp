@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "app/cascade_state.hpp"
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 #include "app/network_tier.hpp"
 #include "coupling/net_pressure.hpp"
 #include "coupling/wall_segment.hpp"
 #include "output/atomic_file.hpp"
 #include "output/checkpoint.hpp"
 #include "output/results_folder.hpp"
-#include "output/run_record.hpp"
+#include "app/results.hpp"
 
 namespace rhexis::app {
 
@@ -22,7 +22,7 @@ class NetworkCoupling {
  public:
   /// Solves the network and chooses its vessel. Nothing is written. Collective. Throws InputError and
   /// RunError.
-  NetworkCoupling(const Configuration& c, parallel::Communicator comm, Console& console);
+  NetworkCoupling(const Configuration& c, parallel::Communicator comm, runtime::Console& console);
 
   /// No vessel's risk is above the cascade's limit: there is nothing to simulate, nor to hand over.
   bool at_rest() const { return at_rest_; }
@@ -78,10 +78,10 @@ class NetworkCoupling {
   void set_cascade(const CascadeState* cascade) { cascade_ = cascade; }
   /// The network as it is shown: with the vessel's place, pressure and leak.
   LineSource& lines();
-  output::NetworkResults network_results() const;
+  NetworkResults network_results() const;
   nlohmann::ordered_json results() const;
-  void say_header(Console& console) const;
-  void say_summary(Console& console) const;
+  void print_header(runtime::Console& console) const;
+  void print_summary(runtime::Console& console) const;
 
  private:
   static constexpr const char* table_name = "coupling.csv";

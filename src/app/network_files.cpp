@@ -1,7 +1,7 @@
 #include "app/network_files.hpp"
 
 #include "app/network_tables.hpp"
-#include "app/version.hpp"
+#include "runtime/version.hpp"
 #include "network/vtp_network.hpp"
 #include "output/atomic_file.hpp"
 #include "output/line_series.hpp"
@@ -78,7 +78,7 @@ void write_lines(const Configuration& c, NetworkSolution& solution, const output
   output::LineSeriesPlan plan;
   plan.directory = folder.path();
   plan.title = c.title;
-  plan.version = version();
+  plan.version = runtime::version();
   plan.fields.assign(fields.begin(), fields.end());
   plan.steps = {0};
   plan.precision = output::Precision::double_precision;
@@ -118,8 +118,8 @@ nlohmann::ordered_json to_json(const QueriedVessel& q) {
   return json;
 }
 
-output::NetworkResults network_results(const NetworkSolution& solution) {
-  output::NetworkResults n;
+NetworkResults network_results(const NetworkSolution& solution) {
+  NetworkResults n;
   n.vessels = solution.vessels;
   n.junctions = solution.junctions;
   n.inflow_m3_s = solution.inflow;

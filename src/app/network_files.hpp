@@ -3,7 +3,7 @@
 
 #include "app/network_tier.hpp"
 #include "output/results_folder.hpp"
-#include "output/run_record.hpp"
+#include "app/results.hpp"
 
 namespace rhexis::app {
 
@@ -14,7 +14,7 @@ void write_network(const Configuration& c, NetworkSolution& solution, const outp
                    parallel::Communicator comm);
 
 /// As in run.json.
-output::NetworkResults network_results(const NetworkSolution& solution);
+NetworkResults network_results(const NetworkSolution& solution);
 nlohmann::ordered_json to_json(const QueriedVessel& q);
 
 }  // namespace rhexis::app

@@ -21,82 +21,83 @@ std::string percent(double relative) {
 
 }  // namespace
 
-void NetworkRun::say_header() {
+void NetworkRun::print_header() {
   const hemodynamics::Parameters& h = c_.hemodynamics;
-  say_input();
-  console_.item("network", tier_->description());
-  console_.item("blood",
+  session_.print_title();
+  session_.warn(c_.warnings);
+  session_.console().item("network", tier_->description());
+  session_.console().item("blood",
                 h.viscosity_law == "constant"
                     ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
                     : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", h.viscosity_law,
                                   quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
                                   h.phase_separation ? ", dividing at bifurcations" : ""));
-  say_surroundings();
+  session_.print_surroundings();
 }
 
-void NetworkRun::say_summary() {
+void NetworkRun::print_summary() {
   const NetworkSolution& s = solution_;
-  console_.line("Done.");
+  session_.console().line("Done.");
   if (s.statistics) {
-    console_.line(
+    session_.console().line(
         "  generation     vessels  mean radius  flow each       arteries      veins     hoop stress");
     for (const auto& g : s.statistics->generations) {
       // The first, the last, and every so many in between.
       const auto count = static_cast<int>(s.statistics->generations.size());
       if (g.generation % ((count + 11) / 12) != 0 && g.generation != count - 1) continue;
-      console_.line(fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}",
+      session_.console().line(fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}",
                                 g.generation, grouped(2 * static_cast<long long>(g.vessels)),
                                 quantity(g.radius[0].mean, "m", 3), quantity(g.flow.mean * 6e4, "L/min", 3),
                                 g.pressure[0].mean / 133.322387415, g.pressure[1].mean / 133.322387415,
                                 quantity(g.hoop_stress[0].mean, "Pa", 3)));
     }
   }
-  console_.item("network", fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));
-  console_.item("inflow",
+  session_.console().item("network", fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));
+  session_.console().item("inflow",
                 fmt::format("{}; Reynolds numbers up to {:.3g}", flow_text(s.inflow), s.highest_reynolds));
-  console_.item("pressure", fmt::format("from {} to {}", mmhg(s.highest_pressure), mmhg(s.lowest_pressure)));
+  session_.console().item("pressure", fmt::format("from {} to {}", mmhg(s.highest_pressure), mmhg(s.lowest_pressure)));
   if (s.volume) {
-    console_.item("blood", fmt::format("{:.4g} mL in all vessels, wall surface {:.4g} m2", *s.volume * 1e6,
+    session_.console().item("blood", fmt::format("{:.4g} mL in all vessels, wall surface {:.4g} m2", *s.volume * 1e6,
                                        *s.surface));
   }
   if (s.max_imbalance) {
-    console_.item("conserved", fmt::format("to {} of the inflow at worst", percent(*s.max_imbalance)));
+    session_.console().item("conserved", fmt::format("to {} of the inflow at worst", percent(*s.max_imbalance)));
   }
-  console_.item("solver",
+  session_.console().item("solver",
                 s.iterations ? fmt::format("{}, {} iterations", s.solver, *s.iterations) : s.solver);
   if (s.haematocrit_iterations) {
-    console_.item("haematocrit", fmt::format("fixed point after {} iterations", *s.haematocrit_iterations));
+    session_.console().item("haematocrit", fmt::format("fixed point after {} iterations", *s.haematocrit_iterations));
   }
   for (const QueriedVessel& q : s.queries) {
-    console_.item("vessel",
+    session_.console().item("vessel",
                   fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name, kind_text(q.kind),
                               q.generation < 0 ? "" : fmt::format(", generation {}", q.generation),
                               quantity(q.radius, "m"), quantity(q.length, "m"), flow_text(q.flow),
                               mmhg(q.pressure_from), mmhg(q.pressure_to)));
   }
-  say_screening();
-  console_.item("shown", fmt::format("{} of {} vessels", grouped(s.shown), grouped(s.vessels)));
-  say_cost(performance());
+  print_screening();
+  session_.console().item("shown", fmt::format("{} of {} vessels", grouped(s.shown), grouped(s.vessels)));
+  session_.print_cost(session_.performance());
 }
 
-void NetworkRun::say_screening() {
+void NetworkRun::print_screening() {
   if (!solution_.screening) return;
   const screening::Screening& s = *solution_.screening;
-  console_.item(
+  session_.console().item(
       "at risk",
       fmt::format("{} strained beyond their critical stretch{}", grouped(static_cast<long long>(s.above)),
                   s.top.empty() ? "" : "; highest risk (strain over critical stretch):"));
   constexpr std::size_t most_said = 5;
   for (std::size_t i = 0; i < std::min(s.top.size(), most_said); ++i) {
     const QueriedVessel& q = solution_.at_risk[i];
-    console_.line(fmt::format(
+    session_.console().line(fmt::format(
         "  {:>10.3f}  {}{}, radius {}, wall {}, {} to {}{}", s.top[i].risk, q.name,
         q.generation < 0 ? "" : fmt::format(" (generation {})", q.generation), quantity(q.radius, "m", 3),
         quantity(q.wall_thickness, "m", 3), mmhg(q.pressure_from), mmhg(q.pressure_to),
         s.top[i].alike > 1 ? fmt::format(", one of {} alike", grouped(static_cast<long long>(s.top[i].alike)))
                            : ""));
   }
-  if (s.top.size() > most_said) console_.line(fmt::format("  {:>10}  in screening.csv", "more"));
+  if (s.top.size() > most_said) session_.console().line(fmt::format("  {:>10}  in screening.csv", "more"));
 }
 
 }  // namespace rhexis::app

@@ -2,50 +2,56 @@
 
 #include <fmt/format.h>
 
+#include "app/folder_plan.hpp"
 #include "app/network_files.hpp"
-#include "app/stopwatch.hpp"
+#include "app/pictures.hpp"
+#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 
 namespace rhexis::app {
 
-NetworkRun::NetworkRun(Configuration configuration, RunOptions options, parallel::Communicator comm)
-    : RunBase(std::move(configuration), std::move(options), comm) {
-  if (!options_.restart.empty())
+NetworkRun::NetworkRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm)
+    : c_(std::move(configuration)),
+      comm_(comm),
+      session_(scene_of(c_), std::move(options), comm,
+               {[this] { return output::Values(results_); },
+                [this] { return runtime::Work{.network_flop = solution_.flop}; }}) {
+  if (!session_.options().restart.empty())
     throw InputError("--restart is for scenes with a wall, scene.model = \"vessel\" or \"coupled\"");
 }
 
-Ending NetworkRun::run() {
-  open_folder();
+runtime::Ending NetworkRun::run() {
+  session_.open_folder(folder_plan(c_, session_.options()));
   tier_ = prepared_tier(c_, comm_);
-  const Ending ending = recorded([&] {
-    start_insitu();
-    open_record();
-    say_header();
+  const runtime::Ending ending = session_.recorded([&] {
+    session_.start_pictures();
+    session_.open_record();
+    print_header();
     solve();
     {
-      const Stopwatch watch(spent_.output);
-      write_network(c_, solution_, *folder_, comm_);
+      const Stopwatch watch(session_.spent().output);
+      write_network(c_, solution_, session_.folder(), comm_);
     }
     draw();
     return 0;
   });
-  say_summary();
+  print_summary();
   return ending;
 }
 
 void NetworkRun::solve() {
-  const Stopwatch watch(spent_.solve);
-  solution_ = tier_->solve([&](const std::string& text) { console_.line(text); });
-  for (const std::string& warning : solution_.warnings) warn(warning);
+  const Stopwatch watch(session_.spent().solve);
+  solution_ = tier_->solve([&](const std::string& text) { session_.console().line(text); });
+  session_.warn(solution_.warnings);
   results_.network = network_results(solution_);
 }
 
 void NetworkRun::draw() {
-  if (pictures_->pipeline && solution_.shown > 0) {
-    const Stopwatch watch(spent_.insitu);
-    pictures_->process({.particles = nullptr, .network = &solution_.lines});
+  if (session_.pictures()->pipeline && solution_.shown > 0) {
+    const Stopwatch watch(session_.spent().insitu);
+    session_.pictures()->process({.particles = nullptr, .network = &solution_.lines});
   }
-  finish_insitu();
+  session_.finish_pictures();
 }
 
 }  // namespace rhexis::app

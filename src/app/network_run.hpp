@@ -4,25 +4,29 @@
 #include <memory>
 
 #include "app/network_tier.hpp"
-#include "app/run_base.hpp"
+#include "app/results.hpp"
+#include "runtime/run_session.hpp"
 
 namespace rhexis::app {
 
-class NetworkRun : private RunBase {
+class NetworkRun {
  public:
-  NetworkRun(Configuration configuration, RunOptions options, parallel::Communicator comm);
+  NetworkRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm);
 
   /// Throws RunError (after noting it in run.json) or InputError (nothing written).
-  Ending run();
+  runtime::Ending run();
 
  private:
-  void say_header();
+  void print_header();
   void solve();
   void draw();
-  void say_summary();
-  void say_screening();
-  std::optional<double> network_flop() const override { return solution_.flop; }
+  void print_summary();
+  void print_screening();
 
+  Configuration c_;
+  parallel::Communicator comm_;
+  Results results_;
+  runtime::RunSession session_;
   std::unique_ptr<NetworkTier> tier_;
   NetworkSolution solution_;
 };

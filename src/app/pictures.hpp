@@ -1,58 +1,19 @@
-/// Starting ParaView for a run, or saying why there will be no pictures.
+/// What a scene has to draw.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <string>
-
-#include "insitu/parameters.hpp"
-#include "insitu/pipeline.hpp"
-#include "output/results_folder.hpp"
-#include "output/staging_folder.hpp"
-#include "parallel/communicator.hpp"
+#include "app/configuration.hpp"
+#include "runtime/run_session.hpp"
 
 namespace rhexis::app {
 
-struct Pictures {
-  /// Runs the scripts; their pictures become results, in images/, when they are complete. Collective; throws
-  /// as insitu::Pipeline, and RunError where a picture would replace one of the user's or of another script.
-  void process(const insitu::Channels& channels);
+/// The scripts of the input and the fields that they may ask for.
+runtime::PicturesPlan pictures_plan(const Configuration& c);
 
-  std::unique_ptr<output::StagingFolder> staging;  ///< where scripts draw
-  std::unique_ptr<insitu::Pipeline> pipeline;      ///< null: no pictures
-  std::string description;                         ///< who draws, or why nobody does
-  /// Where several runs share them, one after the other: steps and seconds of those before.
-  long steps_before = 0;
-  double seconds_before = 0;
-};
+/// What a run says of the scene in its header, its record and its pictures.
+runtime::Scene scene_of(const Configuration& c);
 
-struct Configuration;
-
-/// The scripts named in the input become absolute paths: of Rhexis's own by a plain name, of the user's by a
-/// path. Then reads them without running them, where there can be pictures; what is wrong with one is an
-/// InputError of the key insitu.scripts. Collective.
+/// The scripts named in the input become absolute paths, and `c.no_pictures` says why there can be none
+/// (runtime/pictures.hpp). Collective; throws InputError of the key insitu.scripts.
 void find_scripts(Configuration& c, parallel::Communicator comm);
-
-/// `before_abort`: see insitu::Settings. Collective. Throws InputError for a script that has become bad since
-/// `find_scripts`.
-Pictures start_pictures(const Configuration& c, const output::ResultsFolder& results,
-                        parallel::Communicator comm, std::function<void(const std::string&)> before_abort);
-
-/// A run's particles with the steps and seconds of the runs before.
-class LaterSource : public PointSource {
- public:
-  LaterSource(PointSource& source, const Pictures& pictures) : source_(source), pictures_(pictures) {}
-  long step() const override { return source_.step() + pictures_.steps_before; }
-  double time_s() const override { return source_.time_s() + pictures_.seconds_before; }
-  const PointLayout& layout() const override { return source_.layout(); }
-  std::span<const FieldInfo> fields() const override { return source_.fields(); }
-  FieldView positions() override { return source_.positions(); }
-  FieldView field(std::string_view name) override { return source_.field(name); }
-  std::vector<Annotation> annotations() const override { return source_.annotations(); }
-
- private:
-  PointSource& source_;
-  const Pictures& pictures_;
-};
 
 }  // namespace rhexis::app

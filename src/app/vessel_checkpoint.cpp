@@ -5,8 +5,8 @@
 
 #include "app/checkpoint_input.hpp"
 #include "app/folder_plan.hpp"
-#include "app/stopwatch.hpp"
-#include "app/version.hpp"
+#include "core/stopwatch.hpp"
+#include "runtime/version.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -64,10 +64,10 @@ void VesselRun::for_each_number(peridynamics::Body::Saved& saved, const Visit& v
 }
 
 void VesselRun::write_checkpoint(long step) {
-  const Stopwatch watch(spent_.output);
+  const Stopwatch watch(session_.spent().output);
   peridynamics::Body::Saved saved = body_->save();
-  const std::filesystem::path path = folder_->claim(checkpoint_name(step));
-  output::CheckpointWriter file(path, version(), comm_);
+  const std::filesystem::path path = session_.folder().claim(checkpoint_name(step));
+  output::CheckpointWriter file(path, runtime::version(), comm_);
   write_input(file, c_);
   file.write(step_name, std::int64_t{step});
   file.write("time_step", c_.time_step);
@@ -81,8 +81,8 @@ void VesselRun::write_checkpoint(long step) {
   file.close();
   last_checkpoint_ = path;
   if (signal_ == 0) return;
-  if (comm_.is_root()) record_->fail_alone(interrupted_by(signal_));
-  console_.important(fmt::format("  {}; go on with --restart {}", interrupted_by(signal_), path.string()));
+  if (comm_.is_root()) session_.record().fail_alone(runtime::interrupted_by(signal_));
+  session_.console().important(fmt::format("  {}; go on with --restart {}", runtime::interrupted_by(signal_), path.string()));
 }
 
 /// Refuses the checkpoint of another body or time step; warns of another load.
@@ -104,7 +104,7 @@ void VesselRun::compare_with(output::CheckpointReader& file) {
 }
 
 void VesselRun::read_checkpoint() {
-  output::CheckpointReader file(options_.restart, comm_);
+  output::CheckpointReader file(session_.options().restart, comm_);
   if (!file.holds(step_name))
     file.refuse("the checkpoint is of a cascade between two events; only that cascade goes on from it");
   if (coupling_ == nullptr && file.holds(coupled_vessel_name))
@@ -117,7 +117,7 @@ void VesselRun::read_checkpoint() {
     file.refuse(fmt::format("the checkpoint is of step {}, this run ends at step {}; raise time.end",
                             first_step_, c_.steps));
   }
-  if (coupling_ != nullptr) coupling_->restore(file, time_at(first_step_), options_.directory);
+  if (coupling_ != nullptr) coupling_->restore(file, time_at(first_step_), session_.options().directory);
   compare_with(file);
   peridynamics::Body::Saved saved = body_->save();
   for_each_number(
@@ -132,7 +132,7 @@ void VesselRun::read_checkpoint() {
   vent_next_ = vent_now_;
   // What is continued is read before anything is written.
   parallel::on_root<InputError>(
-      comm_, [&] { output::kept_history(options_.directory / "history.csv", first_step_ - 1); });
+      comm_, [&] { output::kept_history(session_.options().directory / "history.csv", first_step_ - 1); });
 }
 
 }  // namespace rhexis::app

@@ -8,7 +8,7 @@
 
 namespace rhexis::app {
 
-void say_risk(Console& console, const peridynamics::Parameters& v) {
+void print_risk(runtime::Console& console, const peridynamics::Parameters& v) {
   const std::optional<double> risk = risk_of_load(v);
   if (!risk) return;
   console.item(
@@ -16,56 +16,56 @@ void say_risk(Console& console, const peridynamics::Parameters& v) {
                           *risk, quantity(peridynamics::highest_pressure(v), "Pa")));
 }
 
-void VesselRun::say_header() {
+void VesselRun::print_header() {
   const peridynamics::Parameters& v = c_.vessel;
   // A coupled run has said its title before the network was solved.
-  if (coupling_ == nullptr) say_title(console_, c_);
-  say_warnings();
-  if (!options_.restart.empty()) {
-    console_.item("restart", fmt::format("from step {} ({}) of {}", first_step_,
-                                         quantity(time_at(first_step_), "s"), options_.restart.string()));
+  if (coupling_ == nullptr) session_.print_title();
+  session_.warn(c_.warnings);
+  if (!session_.options().restart.empty()) {
+    session_.console().item("restart", fmt::format("from step {} ({}) of {}", first_step_,
+                                         quantity(time_at(first_step_), "s"), session_.options().restart.string()));
   }
-  console_.item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
+  session_.console().item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
                                       quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
                                       quantity(v.length, "m"), v.ends));
-  console_.item("particles", fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}",
+  session_.console().item("particles", fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}",
                                          grouped(*results_.particles), lattice_.section.size(), lattice_.rows,
                                          v.cross_section, quantity(lattice_.spacing, "m"),
                                          quantity(lattice_.horizon, "m")));
   const peridynamics::Scatter& scatter = v.scatter;
   if (!scatter.none()) {
-    console_.item("scatter", fmt::format("critical stretch {:g} %, stiffness {:g} % ({}) over {}, seed {}",
+    session_.console().item("scatter", fmt::format("critical stretch {:g} %, stiffness {:g} % ({}) over {}, seed {}",
                                          100 * scatter.critical_stretch, 100 * scatter.stiffness, scatter.law,
                                          quantity(*scatter.correlation_length, "m"), scatter.seed));
   }
   if (v.spots.size() > 0) {
-    console_.item("spots", fmt::format("{}, which leave out {} particles", v.spots.size(),
+    session_.console().item("spots", fmt::format("{}, which leave out {} particles", v.spots.size(),
                                        grouped(lattice_.particles() - *results_.particles)));
   }
-  console_.item("bonds", fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
+  session_.console().item("bonds", fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
                                      *results_.family_max, v.bond_precision));
-  console_.item("strength", peridynamics::describe_strength(v));
-  console_.item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
+  session_.console().item("strength", peridynamics::describe_strength(v));
+  session_.console().item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
                                     quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
                                     quantity(c_.stable_time_step, "s")));
-  console_.item("load", fmt::format("{} ({}) on the undeformed lumen, layer {}, venting {}",
+  session_.console().item("load", fmt::format("{} ({}) on the undeformed lumen, layer {}, venting {}",
                                     quantity(peridynamics::highest_pressure(v), "Pa"),
                                     peridynamics::describe_schedule(v), v.layer, v.venting));
   if (coupling_ != nullptr) {
-    coupling_->say_header(console_);
+    coupling_->print_header(session_.console());
   } else {
-    say_risk(console_, v);
+    print_risk(session_.console(), v);
   }
-  say_surroundings();
+  session_.print_surroundings();
 }
 
-void VesselRun::say_summary() {
-  const output::Results& r = results_;
-  const output::Performance p = performance();
+void VesselRun::print_summary() {
+  const Results& r = results_;
+  const runtime::Performance p = session_.performance();
   const auto at = [](const std::optional<double>& time) { return time ? quantity(*time, "s") : "none"; };
-  console_.line(signal_ != 0 ? "Interrupted; everything so far is saved." : "Done.");
-  console_.item("first break", at(r.first_bond_break_s));
-  console_.item(
+  session_.console().line(signal_ != 0 ? "Interrupted; everything so far is saved." : "Done.");
+  session_.console().item("first break", at(r.first_bond_break_s));
+  session_.console().item(
       "rupture",
       r.rupture_onset_s
           ? fmt::format("begins at {} (damage {} somewhere) under a blood pressure of {}, {} long "
@@ -73,21 +73,21 @@ void VesselRun::say_summary() {
                         at(r.rupture_onset_s), peridynamics::rupture_damage,
                         quantity(*r.blood_pressure_at_onset_Pa, "Pa", 3), quantity(*r.rupture_length_m, "m"))
           : "none");
-  console_.item(
+  session_.console().item(
       "at the end",
       fmt::format("largest displacement {}, largest damage {:.0f} %, opening {:.3g} mm2",
                   quantity(*r.max_displacement_m, "m", 3), 100 * *r.max_damage, *r.opening_area_m2 * 1e6));
   if (least_vent_ < 1) {
-    console_.item("venting", fmt::format("the opening let the pressure fall to {:.0f} % of the scheduled one",
+    session_.console().item("venting", fmt::format("the opening let the pressure fall to {:.0f} % of the scheduled one",
                                          100 * least_vent_));
   }
-  console_.item("energy", fmt::format("balance off by {:.1e} of the work done", *r.energy_drift));
+  session_.console().item("energy", fmt::format("balance off by {:.1e} of the work done", *r.energy_drift));
   const long steps = step_ - first_step_;
-  console_.item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s, both ends counted",
+  session_.console().item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s, both ends counted",
                                      *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
                                      p.bond_evaluations_per_s.value_or(0)));
-  if (coupling_ != nullptr) coupling_->say_summary(console_);
-  say_cost(p);
+  if (coupling_ != nullptr) coupling_->print_summary(session_.console());
+  session_.print_cost(p);
 }
 
 }  // namespace rhexis::app

@@ -8,12 +8,14 @@
 #include <numbers>
 
 #include "app/folder_plan.hpp"
-#include "app/interrupt.hpp"
-#include "app/stopwatch.hpp"
-#include "app/version.hpp"
+#include "app/pictures.hpp"
+#include "runtime/interrupt.hpp"
+#include "core/stopwatch.hpp"
+#include "runtime/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
+#include "peridynamics/engine/bond_kernel.hpp"
 #include "peridynamics/loads/schedule.hpp"
 
 namespace rhexis::app {
@@ -41,9 +43,13 @@ int signal_in(std::uint64_t flags) {
 
 }  // namespace
 
-VesselRun::VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm,
+VesselRun::VesselRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm,
                      NetworkCoupling* coupling)
-    : RunBase(std::move(configuration), std::move(options), comm), coupling_(coupling) {}
+    : c_(std::move(configuration)),
+      comm_(comm),
+      session_(scene_of(c_), std::move(options), comm,
+               {[this] { return output::Values(results_); }, [this] { return work(); }}),
+      coupling_(coupling) {}
 
 VesselRun::~VesselRun() = default;
 
@@ -52,18 +58,18 @@ double VesselRun::pressure_at(long step) const {
 }
 
 void VesselRun::prepare() {
-  open_folder();
+  session_.open_folder(folder_plan(c_, session_.options()));
   build();
-  if (!options_.restart.empty()) read_checkpoint();
+  if (!session_.options().restart.empty()) read_checkpoint();
 }
 
-Ending VesselRun::run() {
+runtime::Ending VesselRun::run() {
   if (!body_) prepare();
-  const Ending ending = recorded([&] {
-    start_insitu();
+  const runtime::Ending ending = session_.recorded([&] {
+    session_.start_pictures();
     open_results();
-    say_header();
-    if (c_.vessel.equilibrium_pressure > 0 && options_.restart.empty()) start_at_equilibrium();
+    print_header();
+    if (c_.vessel.equilibrium_pressure > 0 && session_.options().restart.empty()) start_at_equilibrium();
     time_loop();
     warn_of_odd_openings();
     if (series_) series_->finish();
@@ -71,11 +77,11 @@ Ending VesselRun::run() {
       coupling_->end(time_at(step_));
       results_.coupling = coupling_->results();
     }
-    finish_insitu();
-    make_movie();
+    session_.finish_pictures();
+    session_.make_movie();
     return signal_;
   });
-  say_summary();
+  print_summary();
   return ending;
 }
 
@@ -101,26 +107,26 @@ void VesselRun::build() {
 }
 
 void VesselRun::open_results() {
-  const bool restarts = !options_.restart.empty();
-  if (restarts) folder_->will_write(files_of_steps(c_, first_step_, restarts));
-  open_record(restarts ? std::optional<std::int64_t>(first_step_) : std::nullopt);
-  const std::filesystem::path history = folder_->claim("history.csv");
+  const bool restarts = !session_.options().restart.empty();
+  if (restarts) session_.folder().will_write(files_of_steps(c_, first_step_, restarts));
+  session_.open_record(restarts ? std::optional<std::int64_t>(first_step_) : std::nullopt);
+  const std::filesystem::path history = session_.folder().claim("history.csv");
   if (restarts) {
     // The first moment is observed anew, so the row that the earlier run may have left of it goes.
     history_.emplace(history, comm_, first_step_ - 1);
   } else {
     history_.emplace(history, comm_);
   }
-  if (coupling_ != nullptr) coupling_->open(*folder_);
+  if (coupling_ != nullptr) coupling_->open(session_.folder());
   if (c_.output.fields.empty()) return;
   output::PointSeriesPlan plan;
-  plan.directory = folder_->path();
+  plan.directory = session_.folder().path();
   plan.basename = series_name(first_step_, restarts);
   plan.title = c_.title;
-  plan.version = version();
+  plan.version = runtime::version();
   plan.precision = output::precision_of(c_.output);
   plan.formats = output::formats_of(c_.output);
-  for (const std::string& name : output::series_files(plan.basename, plan.formats)) folder_->claim(name);
+  for (const std::string& name : output::series_files(plan.basename, plan.formats)) session_.folder().claim(name);
   plan.annotations = {"pressure"};
   for (const FieldInfo& field : peridynamics::ParticleSource::all_fields()) {
     if (std::find(c_.output.fields.begin(), c_.output.fields.end(), field.name) != c_.output.fields.end()) {
@@ -134,8 +140,11 @@ void VesselRun::open_results() {
   series_->write_reference(source_->reference_positions());
 }
 
-std::optional<double> VesselRun::network_flop() const {
-  return coupling_ != nullptr ? coupling_->flop() : std::nullopt;
+runtime::Work VesselRun::work() const {
+  return {.bond_evaluations = start_bond_evaluations_ + body_->bond_evaluations(),
+          .flop_per_evaluation = 0.5 * peridynamics::flop_per_bond,
+          .traffic = body_->traffic(),
+          .network_flop = coupling_ != nullptr ? coupling_->flop() : std::nullopt};
 }
 
 bool VesselRun::output_due(long step) const {
@@ -143,29 +152,29 @@ bool VesselRun::output_due(long step) const {
 }
 
 bool VesselRun::pictures_due(long step, bool with_output) {
-  if (!pictures_->pipeline) return false;
+  if (!session_.pictures()->pipeline) return false;
   const bool due =
       c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : with_output;
   // Scripts are asked last: the answer may need all ranks.
-  return due && pictures_->pipeline->wants(step + pictures_->steps_before,
-                                           time_at(step) + pictures_->seconds_before);
+  return due && session_.pictures()->pipeline->wants(step + session_.pictures()->steps_before,
+                                           time_at(step) + session_.pictures()->seconds_before);
 }
 
 void VesselRun::observe(long step, bool with_output, bool with_pictures) {
   const double pressure = pressure_at(step) * vent_now_;
   {
-    const Stopwatch watch(spent_.solve);
+    const Stopwatch watch(session_.spent().solve);
     body_->find_forces();  // once, for what is observed and for the next step
   }
   {
-    const Stopwatch watch(with_output ? spent_.output : spent_.insitu);
+    const Stopwatch watch(with_output ? session_.spent().output : session_.spent().insitu);
     const peridynamics::Observation& observation = body_->observe(pressure);
     source_->moment(step, time_at(step), observation, {{"pressure", "Pa", pressure}});
   }
   // A restart's first moment begins its own series of particles; in history.csv, which it continues, it would
   // be one row more than a run in one go has.
   if (with_output && (output_due(step) || signal_ != 0)) {
-    const Stopwatch watch(spent_.output);
+    const Stopwatch watch(session_.spent().output);
     const peridynamics::Totals t = body_->totals();
     // Beside a hole particles have lost about half of their bonds.
     open_area_ = t.max_damage >= peridynamics::rupture_damage ? gauge_->area() : 0;
@@ -185,19 +194,19 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     const double energy = t.kinetic + t.strain + t.fracture;
     const double scale = std::max(std::abs(t.external_work), energy);
     results_.energy_drift = scale > 0 ? (energy - t.external_work) / scale : 0.0;
-    record_->know(results_);
+    session_.record().know(results_);
     history_->append({step, time_at(step), pressure, t.max_displacement, t.max_damage,
                       static_cast<long>(t.broken_bonds), t.kinetic, t.strain, t.external_work,
                       t.rupture_length, leak, t.fracture, open_area_});
   }
   if (with_output && series_) {
-    const Stopwatch watch(spent_.output);
+    const Stopwatch watch(session_.spent().output);
     series_->write(*source_);
   }
   if (with_pictures) {
-    const Stopwatch watch(spent_.insitu);
-    LaterSource particles(*source_, *pictures_);
-    pictures_->process(
+    const Stopwatch watch(session_.spent().insitu);
+    runtime::LaterSource particles(*source_, *session_.pictures());
+    session_.pictures()->process(
         {.particles = &particles, .network = coupling_ != nullptr ? &coupling_->lines() : nullptr});
   }
 }
@@ -215,9 +224,9 @@ void VesselRun::show(bool with_output, bool with_pictures) {
     try {
       if (!has_exchanged) write_checkpoint(step_);
       if (!last_checkpoint_.empty())
-        console_.important(fmt::format("  failed; go on with --restart {}", last_checkpoint_.string()));
+        session_.console().important(fmt::format("  failed; go on with --restart {}", last_checkpoint_.string()));
     } catch (const RunError& also) {
-      warn(std::string("no checkpoint: ") + also.what());
+      session_.warn(std::string("no checkpoint: ") + also.what());
     }
     throw;
   }
@@ -229,13 +238,13 @@ void VesselRun::warn_of_odd_openings() {
   const peridynamics::Parameters& v = c_.vessel;
   const double wall = 2 * std::numbers::pi * v.inner_radius * v.length;
   if (open_area_ > wall) {
-    warn(
+    session_.warn(
         fmt::format("the opening at the end, {:.3g} mm2, is larger than the lumen's surface of the simulated "
                     "wall, {:.3g} mm2: fragments have flown apart, and it is no hole in a wall any more",
                     1e6 * open_area_, 1e6 * wall));
   }
   if (v.venting == "orifice" && least_vent_ == 1 && *results_.rupture_length_m > 0.9 * v.length) {
-    warn(
+    session_.warn(
         "the wall is ruptured over its length, but no row of it ever showed a gap, so the load was not "
         "vented: a wall that tears all around at once counts as open late, or never");
   }
@@ -268,7 +277,7 @@ bool VesselRun::balance_due(long step) const {
 void VesselRun::warn_of_crushed_bonds(long step, const peridynamics::Totals& t) {
   if (t.crushed_bonds == 0 || crushing_was_said_) return;
   crushing_was_said_ = true;
-  warn(
+  session_.warn(
       fmt::format("at {} {} bonds are compressed to less than half their length, where {} is no longer known "
                   "to be stable: the run will stop if energy exceeds the work done by a tenth; a smaller "
                   "time.step is safer",
@@ -286,7 +295,7 @@ void VesselRun::take_notice(long step, std::uint64_t flags) {
     results_.pressure_at_onset_Pa = pressure_at(step) * vent_now_;
     results_.blood_pressure_at_onset_Pa = *results_.pressure_at_onset_Pa / lumen_->largest_stretch();
     results_.max_displacement_at_onset_m = body_->max_displacement();
-    console_.line(
+    session_.console().line(
         fmt::format("  rupture begins at {} under {} on the reference area (a blood pressure of {}), largest "
                     "displacement {}",
                     quantity(time_at(step), "s"), quantity(*results_.pressure_at_onset_Pa, "Pa"),
@@ -323,7 +332,7 @@ void VesselRun::exchange(long step) {
   const double reynolds = coupling_->highest_reynolds();
   if (results_.rupture_onset_s && reynolds > hemodynamics::laminar_reynolds_number && !turbulence_was_said_) {
     turbulence_was_said_ = true;
-    warn(fmt::format(
+    session_.warn(fmt::format(
         "at {} the Reynolds number in the torn vessel has reached {:.0f}; above {:.0f} flow is not "
         "laminar: real resistances are higher than those of Eq. (9), and less leaks",
         quantity(time_at(step), "s"), reynolds, hemodynamics::laminar_reynolds_number));
@@ -331,7 +340,7 @@ void VesselRun::exchange(long step) {
 }
 
 void VesselRun::time_loop() {
-  const InterruptGuard guard;
+  const runtime::InterruptGuard guard;
   for (step_ = first_step_;; ++step_) {
     const bool due = output_due(step_) || step_ == first_step_ || signal_ != 0;
     const bool pictures = pictures_due(step_, due);
@@ -340,16 +349,16 @@ void VesselRun::time_loop() {
     // First of all, because a launcher that was interrupted may not leave time for more.
     if (signal_ != 0 || saves) write_checkpoint(step_);
     if (coupling_ != nullptr && coupling_->due(step_)) {
-      const Stopwatch watch(spent_.solve);
+      const Stopwatch watch(session_.spent().solve);
       exchange(step_);
     }
     if (due || pictures) show(due, pictures);
     if (!due && balance_due(step_)) {
-      const Stopwatch watch(spent_.solve);
+      const Stopwatch watch(session_.spent().solve);
       body_->observe(pressure_at(step_) * vent_now_);
       check_balance(step_, body_->totals());
     }
-    console_.progress(step_, c_.steps,
+    session_.console().progress(step_, c_.steps,
                       fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
                                   quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
     if (signal_ != 0 || step_ == c_.steps) {
@@ -362,11 +371,11 @@ void VesselRun::time_loop() {
       return;
     }
 
-    const Stopwatch watch(spent_.solve);
+    const Stopwatch watch(session_.spent().solve);
     vent(step_);
     const peridynamics::StepEvents events =
         body_->advance(pressure_at(step_) * vent_now_, pressure_at(step_ + 1) * vent_next_);
-    std::uint64_t flags = flag_of_signal(InterruptGuard::requested());
+    std::uint64_t flags = flag_of_signal(runtime::InterruptGuard::requested());
     if (events.broken > 0) flags |= Flag::broken;
     if (events.damaged) flags |= Flag::ruptured;
     if (events.unstable) flags |= Flag::unstable;

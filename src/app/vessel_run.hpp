@@ -5,7 +5,8 @@
 #include <optional>
 
 #include "app/network_coupling.hpp"
-#include "app/run_base.hpp"
+#include "app/results.hpp"
+#include "runtime/run_session.hpp"
 #include "output/checkpoint.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
@@ -15,10 +16,13 @@
 
 namespace rhexis::app {
 
-class VesselRun final : private RunBase {
+/// Where `risk_of_load` knows it.
+void print_risk(runtime::Console& console, const peridynamics::Parameters& vessel);
+
+class VesselRun {
  public:
   /// `coupling`: the network that the vessel is part of, which the configuration comes from.
-  VesselRun(Configuration configuration, RunOptions options, parallel::Communicator comm,
+  VesselRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm,
             NetworkCoupling* coupling = nullptr);
   ~VesselRun();
 
@@ -27,16 +31,16 @@ class VesselRun final : private RunBase {
   void prepare();
   /// Runs to the end, or to the step after an interrupt. Throws RunError (after noting it in run.json) or
   /// InputError (nothing written).
-  Ending run();
+  runtime::Ending run();
 
-  const output::Results& results() const { return results_; }
-  const Spent& spent() const { return spent_; }
+  const Results& results() const { return results_; }
+  const runtime::Spent& spent() const { return session_.spent(); }
 
  private:
   std::string unstable_message(long step, const std::string& sign) const;
   void build();
   void open_results();
-  void say_header();
+  void print_header();
   void start_at_equilibrium();
   void time_loop();
   void check_balance(long step, const peridynamics::Totals& t) const;
@@ -56,15 +60,15 @@ class VesselRun final : private RunBase {
   void compare_with(output::CheckpointReader& file);
   template <class Visit>
   void for_each_number(peridynamics::Body::Saved& saved, const Visit& visit);
-  void say_summary();
-  std::optional<std::int64_t> bond_evaluations() const override {
-    return start_bond_evaluations_ + body_->bond_evaluations();
-  }
-  std::optional<parallel::Traffic> traffic() const override { return body_->traffic(); }
-  std::optional<double> network_flop() const override;
+  void print_summary();
+  runtime::Work work() const;
   double pressure_at(long step) const;
   double time_at(long step) const { return static_cast<double>(step) * c_.time_step; }
 
+  Configuration c_;
+  parallel::Communicator comm_;
+  Results results_;
+  runtime::RunSession session_;
   peridynamics::Lattice lattice_;
   std::unique_ptr<peridynamics::Body> body_;
   std::unique_ptr<peridynamics::ParticleSource> source_;

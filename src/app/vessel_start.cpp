@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "app/stopwatch.hpp"
+#include "core/stopwatch.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -15,7 +15,7 @@ namespace rhexis::app {
 /// slowly: the work done so far is the strain energy. Throws RunError where the wall does not bear it.
 void VesselRun::start_at_equilibrium() {
   const peridynamics::Parameters& v = c_.vessel;
-  const Stopwatch watch(spent_.solve);
+  const Stopwatch watch(session_.spent().solve);
   peridynamics::Equilibrium found =
       peridynamics::find_equilibrium(peridynamics::make_setup(v, lattice_, c_.families, c_.time_step),
                                      v.equilibrium_pressure, v.equilibrium_tolerance, comm_);
@@ -37,7 +37,7 @@ void VesselRun::start_at_equilibrium() {
         "equilibrium; start from a lower pressure",
         quantity(v.equilibrium_pressure, "Pa"), grouped(broken), text(*v.critical_stretch)));
   }
-  console_.item("start", fmt::format("equilibrium under {}: {} steps of relaxation, residual {:.1e}, strain "
+  session_.console().item("start", fmt::format("equilibrium under {}: {} steps of relaxation, residual {:.1e}, strain "
                                      "energy {}",
                                      quantity(v.equilibrium_pressure, "Pa"), found.steps, found.residual,
                                      quantity(found.strain_energy, "J")));

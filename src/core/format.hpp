@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <string>
 
 namespace rhexis {
@@ -34,6 +35,31 @@ inline std::string quantity(double value, const std::string& unit, int digits = 
 /// A pressure (Pa) as physicians have it: "120 mmHg".
 inline std::string mmhg(double pascal, int digits = 4) {
   return text(pascal / 133.322387415, digits) + " mmHg";
+}
+
+/// A count with its digits in groups of three: "54,800".
+inline std::string grouped(long long count) {
+  const std::string digits = std::to_string(std::abs(count));
+  std::string text = count < 0 ? "-" : "";
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+/// A span of time (s) as a clock tells it: "3.1 s", "12 s", "3 min 20 s", "2 h 5 min".
+inline std::string duration(double seconds) {
+  if (!std::isfinite(seconds)) return "?";
+  if (seconds < 10) {
+    char buffer[40];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, seconds, std::chars_format::fixed, 1);
+    return std::string(buffer, end.ptr) + " s";
+  }
+  const long long whole = std::llround(seconds);
+  if (whole < 60) return std::to_string(whole) + " s";
+  if (whole < 3600) return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
 }
 
 }  // namespace rhexis

@@ -26,68 +26,7 @@ Json or_null(const std::optional<T>& value) {
 
 }  // namespace
 
-void to_json(Json& json, const NetworkResults& network) {
-  json = Json::object({{"vessels", or_null(network.vessels)},
-                       {"junctions", or_null(network.junctions)},
-                       {"inflow_m3_s", or_null(network.inflow_m3_s)},
-                       {"max_imbalance", or_null(network.max_imbalance)},
-                       {"volume_m3", or_null(network.volume_m3)},
-                       {"surface_m2", or_null(network.surface_m2)},
-                       {"highest_reynolds", or_null(network.highest_reynolds)},
-                       {"highest_pressure_Pa", or_null(network.highest_pressure_Pa)},
-                       {"lowest_pressure_Pa", or_null(network.lowest_pressure_Pa)},
-                       {"solver", or_null(network.solver)},
-                       {"iterations", or_null(network.iterations)},
-                       {"queries", network.queries},
-                       {"screening", network.screening}});
-}
-
-void to_json(Json& json, const Results& results) {
-  json = Json::object({{"particles", or_null(results.particles)},
-                       {"bonds", or_null(results.bonds)},
-                       {"family_max", or_null(results.family_max)},
-                       {"time_step_s", or_null(results.time_step_s)},
-                       {"stable_time_step_s", or_null(results.stable_time_step_s)},
-                       {"steps", or_null(results.steps)},
-                       {"simulated_s", or_null(results.simulated_s)},
-                       {"first_bond_break_s", or_null(results.first_bond_break_s)},
-                       {"rupture_onset_s", or_null(results.rupture_onset_s)},
-                       {"pressure_at_onset_Pa", or_null(results.pressure_at_onset_Pa)},
-                       {"blood_pressure_at_onset_Pa", or_null(results.blood_pressure_at_onset_Pa)},
-                       {"max_displacement_at_onset_m", or_null(results.max_displacement_at_onset_m)},
-                       {"max_displacement_m", or_null(results.max_displacement_m)},
-                       {"max_damage", or_null(results.max_damage)},
-                       {"rupture_length_m", or_null(results.rupture_length_m)},
-                       {"opening_area_m2", or_null(results.opening_area_m2)},
-                       {"energy_drift", or_null(results.energy_drift)},
-                       {"network", results.network},
-                       {"coupling", results.coupling},
-                       {"cascade", results.cascade},
-                       {"ensemble", results.ensemble}});
-}
-
-void to_json(Json& json, const Performance& performance) {
-  json = Json::object({{"processor", or_null(performance.processor)},
-                       {"compiler", or_null(performance.compiler)},
-                       {"ranks", or_null(performance.ranks)},
-                       {"threads", or_null(performance.threads)},
-                       {"wall_s", or_null(performance.wall_s)},
-                       {"solve_s", or_null(performance.solve_s)},
-                       {"insitu_s", or_null(performance.insitu_s)},
-                       {"output_s", or_null(performance.output_s)},
-                       {"bond_evaluations", or_null(performance.bond_evaluations)},
-                       {"bond_evaluations_per_s", or_null(performance.bond_evaluations_per_s)},
-                       {"flop", or_null(performance.flop)},
-                       {"exchange_s", or_null(performance.exchange_s)},
-                       {"exchange_bytes", or_null(performance.exchange_bytes)},
-                       {"message_latency_s", or_null(performance.message_latency_s)},
-                       {"message_bandwidth_B_s", or_null(performance.message_bandwidth_B_s)},
-                       {"peak_rss_bytes", or_null(performance.peak_rss_bytes)},
-                       {"node_hours", or_null(performance.node_hours)},
-                       {"energy_J", or_null(performance.energy_J)}});
-}
-
-RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance,
+RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance, const Values& results, const Values& performance,
                      parallel::Communicator communicator)
     : path_(std::move(path)), communicator_(communicator) {
   document_ = Json::object({{"version", provenance.version},
@@ -101,8 +40,8 @@ RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance,
                             {"warnings", Json::array()}});
   parallel::on_root<RunError>(communicator_, [&] {
     document_["status"] = nullptr;
-    document_["results"] = Results{};
-    document_["performance"] = Performance{};
+    document_["results"] = results;
+    document_["performance"] = performance;
     write(running_status);
     folder_.emplace(path_.parent_path());
   });
@@ -118,17 +57,17 @@ void RunRecord::warn(const std::string& text) {
   document_["warnings"].push_back(text);
 }
 
-void RunRecord::know(const Results& results) {
+void RunRecord::know(const Values& results) {
   if (!communicator_.is_root()) return;
   const std::lock_guard lock(mutex_);
   document_["results"] = results;
 }
 
-void RunRecord::complete(const Results& results, const Performance& performance) {
+void RunRecord::complete(const Values& results, const Values& performance) {
   end("completed", results, performance);
 }
 
-void RunRecord::fail(const std::string& reason, const Results& results, const Performance& performance) {
+void RunRecord::fail(const std::string& reason, const Values& results, const Values& performance) {
   end("failed: " + reason, results, performance);
 }
 
@@ -145,7 +84,7 @@ void RunRecord::fail_alone(const std::string& reason) noexcept {
   }
 }
 
-void RunRecord::end(const std::string& status, const Results& results, const Performance& performance) {
+void RunRecord::end(const std::string& status, const Values& results, const Values& performance) {
   parallel::on_root<RunError>(communicator_, [&] {
     const std::lock_guard lock(mutex_);
     ended_ = true;

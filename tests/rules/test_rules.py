@@ -28,7 +28,8 @@ MAY_INCLUDE = {
     "studies": {"parallel", "network", "hemodynamics", "peridynamics"},
     "output": {"parallel"},
     "insitu": {"parallel"},
-    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "studies", "output", "insitu"},
+    "runtime": {"parallel", "input", "output", "insitu"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "studies", "output", "insitu", "runtime"},
 }
 
 # Folder -> its rooms -> rooms of the same folder that they may include, besides themselves and the files outside any room,

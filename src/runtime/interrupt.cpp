@@ -1,4 +1,4 @@
-#include "app/interrupt.hpp"
+#include "runtime/interrupt.hpp"
 
 #include <fmt/format.h>
 #include <semaphore.h>
@@ -13,10 +13,10 @@
 #include <thread>
 #include <vector>
 
-#include "app/terminal.hpp"
+#include "runtime/terminal.hpp"
 #include "output/temporary_file.hpp"
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 namespace {
 
 constexpr std::array watched = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU};
@@ -195,4 +195,4 @@ void fail_records_alone(const std::string& reason) noexcept {
   Watch::instance().fail_records(reason);
 }
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

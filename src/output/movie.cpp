@@ -1,4 +1,4 @@
-#include "app/movie.hpp"
+#include "output/movie.hpp"
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -15,7 +15,7 @@
 
 extern char** environ;
 
-namespace rhexis::app {
+namespace rhexis::output {
 namespace {
 
 /// Other programs get signals as they expect them, not as this one has set them.
@@ -67,7 +67,7 @@ std::string make_movie(const std::filesystem::path& images, const std::vector<st
   };
   std::map<std::string, Series> all;
   for (const std::filesystem::path picture : names) {
-    const std::string name = output::picture_series(picture);
+    const std::string name = picture_series(picture);
     if (name.empty() || picture.has_parent_path()) continue;
     ++all[name].pictures;
     all[name].digits.insert(picture.stem().string().size() - name.size() - 1);
@@ -97,4 +97,4 @@ std::string make_movie(const std::filesystem::path& images, const std::vector<st
   return {};
 }
 
-}  // namespace rhexis::app
+}  // namespace rhexis::output

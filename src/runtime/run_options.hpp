@@ -9,7 +9,7 @@
 
 #include "output/results_folder.hpp"
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 
 struct Pictures;
 
@@ -31,4 +31,4 @@ struct Ending {
   bool interrupted() const { return signal != 0; }
 };
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

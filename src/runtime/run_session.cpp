@@ -1,4 +1,4 @@
-#include "app/run_base.hpp"
+#include "runtime/run_session.hpp"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -6,58 +6,54 @@
 #include <cmath>
 #include <ctime>
 
-#include "app/folder_plan.hpp"
-#include "app/movie.hpp"
-#include "app/stopwatch.hpp"
-#include "app/terminal.hpp"
-#include "app/version.hpp"
+#include "output/movie.hpp"
+#include "core/stopwatch.hpp"
+#include "runtime/terminal.hpp"
+#include "runtime/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "output/temporary_file.hpp"
 #include "parallel/link.hpp"
 #include "parallel/together.hpp"
-#include "peridynamics/engine/bond_kernel.hpp"
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 
-RunBase::RunBase(Configuration configuration, RunOptions options, parallel::Communicator comm)
-    : c_(std::move(configuration)),
+RunSession::RunSession(Scene scene, RunOptions options, parallel::Communicator comm, RunState state)
+    : scene_(std::move(scene)),
       options_(std::move(options)),
       comm_(comm),
+      state_(std::move(state)),
       console_(comm.is_root(), options_.quiet),
+      pictures_(options_.pictures ? options_.pictures : std::make_shared<Pictures>()),
       started_(options_.started) {}
 
-void RunBase::open_folder(output::FolderPlan plan) {
+void RunSession::open_folder(const output::FolderPlan& plan) {
   folder_ = options_.folder;
   if (!folder_) folder_.emplace(plan, comm_);
 }
 
-void RunBase::open_folder() {
-  open_folder(folder_plan(c_, options_));
-}
-
-void RunBase::open_record(std::optional<std::int64_t> first_step) {
+void RunSession::open_record(std::optional<std::int64_t> first_step) {
   output::Provenance provenance{
       .version = version(),
       .commit = commit(),
       .command = options_.command,
-      .file = c_.file,
+      .file = scene_.file,
       .started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
                              fmt::gmtime(std::time(nullptr) - std::lround(seconds_now() - started_))),
       .first_step = first_step,
-      .input = c_.record};
+      .input = scene_.input};
   if (!options_.restart.empty()) provenance.checkpoint = options_.restart.string();
   folder_->remove_earlier_results();
-  record_.emplace(folder_->claim("run.json"), provenance, comm_);
+  record_.emplace(folder_->claim("run.json"), provenance, state_.results(), Performance{}, comm_);
   signals_.emplace(*record_, folder_->path(), comm_.is_root());
 }
 
-void RunBase::warn(const std::string& text) {
+void RunSession::warn(const std::string& text) {
   console_.warning(text);
   if (record_) record_->warn(text);
 }
 
-Ending RunBase::recorded(const std::function<int()>& work) {
+Ending RunSession::recorded(const std::function<int()>& work) {
   int signal = 0;
   try {
     signal = work();
@@ -77,45 +73,43 @@ Ending RunBase::recorded(const std::function<int()>& work) {
                      output_failure()));
   }
   if (signal != 0) {
-    record_->fail(interrupted_by(signal), results_, performance());
+    record_->fail(interrupted_by(signal), state_.results(), performance());
   } else {
-    record_->complete(results_, performance());
+    record_->complete(state_.results(), performance());
   }
   return {signal};
 }
 
 /// A disk that is full for this too must not hide the reason.
-void RunBase::note_failure(const std::string& reason) {
+void RunSession::note_failure(const std::string& reason) {
   if (!record_) return;
   try {
-    record_->fail(reason, results_, performance());
+    record_->fail(reason, state_.results(), performance());
   } catch (const RunError& also) {
     console_.warning(also.what());
   }
 }
 
-void RunBase::start_insitu() {
+void RunSession::start_pictures() {
   const Stopwatch watch(spent_.insitu);
-  pictures_ = options_.pictures;
-  if (!pictures_)
-    pictures_ = std::make_shared<Pictures>(start_pictures(c_, *folder_, comm_, fail_records_alone));
+  if (!options_.pictures) *pictures_ = runtime::start_pictures(scene_.pictures, *folder_, comm_, fail_records_alone);
 }
 
-void RunBase::finish_insitu() {
+void RunSession::finish_pictures() {
   if (!pictures_->pipeline || options_.pictures) return;
   const Stopwatch watch(spent_.insitu);
   pictures_->pipeline->finish();
 }
 
-void RunBase::make_movie() {
-  if (!pictures_->pipeline || options_.pictures || !c_.output.movie) return;
+void RunSession::make_movie() {
+  if (!pictures_->pipeline || options_.pictures || !scene_.movie) return;
   const Stopwatch watch(spent_.insitu);
   std::string problem;
   parallel::together(comm_, [&] {
     if (!comm_.is_root()) return;
     output::TemporaryFile movie(folder_->path() / "movie.mp4");
-    problem = app::make_movie(folder_->path() / "images", folder_->files_in("images"), movie.name(),
-                              c_.output.frames_per_second);
+    problem = output::make_movie(folder_->path() / "images", folder_->files_in("images"), movie.name(),
+                              scene_.frames_per_second);
     if (!problem.empty()) return;
     folder_->claim_on_root("movie.mp4");
     movie.put_in_place();
@@ -123,8 +117,9 @@ void RunBase::make_movie() {
   if (!problem.empty()) warn("no movie: " + problem);
 }
 
-output::Performance RunBase::performance() {
-  output::Performance p;
+Performance RunSession::performance() {
+  Performance p;
+  const Work work = state_.work();
   if (const std::string name = output::processor_name(); !name.empty()) p.processor = name;
   p.compiler = compiler();
   p.ranks = comm_.size();
@@ -133,13 +128,13 @@ output::Performance RunBase::performance() {
   p.solve_s = spent_.solve;
   p.insitu_s = spent_.insitu;
   p.output_s = spent_.output;
-  if (const auto own = bond_evaluations()) {
+  if (const auto& own = work.bond_evaluations) {
     p.bond_evaluations = comm_.all_reduce(*own, parallel::Reduce::sum);
     if (spent_.solve > 0) p.bond_evaluations_per_s = static_cast<double>(*p.bond_evaluations) / spent_.solve;
-    p.flop = 0.5 * static_cast<double>(*p.bond_evaluations) * peridynamics::flop_per_bond;
+    p.flop = static_cast<double>(*p.bond_evaluations) * work.flop_per_evaluation;
   }
-  if (const auto flop = network_flop()) p.flop = p.flop.value_or(0) + *flop;
-  if (const auto own = traffic()) {
+  if (const auto& flop = work.network_flop) p.flop = p.flop.value_or(0) + *flop;
+  if (const auto& own = work.traffic) {
     p.exchange_s = comm_.all_reduce(own->seconds, parallel::Reduce::sum) / comm_.size();
     p.exchange_bytes = comm_.all_reduce(own->bytes, parallel::Reduce::sum);
   }
@@ -153,36 +148,31 @@ output::Performance RunBase::performance() {
   return p;
 }
 
-/// Of all nodes; none where one of them does not tell. Collective.
-std::optional<double> RunBase::energy_of_nodes() {
+/// The energy that all nodes have used, J; none where one of them does not tell. Collective.
+std::optional<double> RunSession::energy_of_nodes() {
   const bool leads = comm_.leads_node();
   const std::optional<double> here = energy_.read();
   if (comm_.all_reduce(std::int64_t{leads && !here}, parallel::Reduce::sum) > 0) return {};
   return comm_.all_reduce(leads ? *here : 0.0, parallel::Reduce::sum);
 }
 
-void say_title(Console& console, const Configuration& c) {
-  console.line(fmt::format("Rhexis {} ({}): {}", version(), commit(), c.title.empty() ? c.file : c.title));
-  console.item("input", c.file);
+void print_title(Console& console, const std::string& title, const std::string& file) {
+  console.line(fmt::format("Rhexis {} ({}): {}", version(), commit(), title.empty() ? file : title));
+  console.item("input", file);
 }
 
-void RunBase::say_input() {
-  say_title(console_, c_);
-  say_warnings();
+void RunSession::warn(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) warn(text);
 }
 
-void RunBase::say_warnings() {
-  for (const std::string& warning : c_.warnings) warn(warning);
-}
-
-void RunBase::say_surroundings() {
+void RunSession::print_surroundings() {
   console_.item("parallel", fmt::format("{} rank{} x {} thread{}", comm_.size(), comm_.size() > 1 ? "s" : "",
                                         parallel::thread_count(), parallel::thread_count() > 1 ? "s" : ""));
-  if (pictures_) console_.item("pictures", pictures_->description);
+  if (!pictures_->description.empty()) console_.item("pictures", pictures_->description);
   console_.item("results", options_.directory.string());
 }
 
-void RunBase::say_cost(const output::Performance& p) {
+void RunSession::print_cost(const Performance& p) {
   console_.item("time spent",
                 fmt::format("{} in all: {} solving, {} pictures, {} output", duration(*p.wall_s),
                             duration(*p.solve_s), duration(*p.insitu_s), duration(*p.output_s)));
@@ -191,4 +181,4 @@ void RunBase::say_cost(const output::Performance& p) {
   console_.item("results", options_.directory.string());
 }
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

@@ -3,13 +3,7 @@
 
 #include <string>
 
-namespace rhexis::app {
-
-/// "54,800".
-std::string grouped(long long count);
-
-/// "12 s", "3 min 20 s", "2 h 5 min".
-std::string duration(double seconds);
+namespace rhexis::runtime {
 
 class Console {
  public:
@@ -37,4 +31,4 @@ class Console {
   double start_ = 0, last_drawn_ = 0;
 };
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

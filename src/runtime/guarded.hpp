@@ -5,12 +5,12 @@
 
 #include <exception>
 
-#include "app/terminal.hpp"
+#include "runtime/terminal.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "parallel/communicator.hpp"
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 
 /// Bytes of a message at most: what it quotes may be as long as a file.
 constexpr std::size_t longest_message = 4000;
@@ -38,4 +38,4 @@ int guarded(parallel::Communicator comm, const Work& work) {
   }
 }
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 
 std::string version();
 std::string commit();
@@ -14,4 +14,4 @@ std::string paraview_version();
 /// Version, commit, compiler, libraries: the text of `rhexis --version`.
 std::string build_description();
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

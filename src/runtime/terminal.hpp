@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 
 /// Opens what the caller has closed of stdin, stdout and stderr, so that no file of results takes their
 /// place: stdout so that writing to it fails. Before anything else opens a file.
@@ -18,4 +18,4 @@ void print_error(std::string_view text);
 /// Why something written to stdout is lost; empty where nothing is.
 std::string output_failure();
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

@@ -1,4 +1,4 @@
-#include "app/terminal.hpp"
+#include "runtime/terminal.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 namespace {
 
 bool was_closed = false;  ///< stdout, by the caller
@@ -44,4 +44,4 @@ std::string output_failure() {
   return output_error == 0 ? "" : std::strerror(output_error);
 }
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

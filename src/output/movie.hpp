@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace rhexis::app {
+namespace rhexis::output {
 
 /// Makes `movie` through ffmpeg from the largest series `<name>_<digits>.png` (the first by name among
 /// equals) of the pictures `names` in the folder `images`. Returns an empty text, or the reason why there is
@@ -13,4 +13,4 @@ namespace rhexis::app {
 std::string make_movie(const std::filesystem::path& images, const std::vector<std::string>& names,
                        const std::filesystem::path& movie, double frames_per_second);
 
-}  // namespace rhexis::app
+}  // namespace rhexis::output

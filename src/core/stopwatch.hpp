@@ -1,16 +1,16 @@
-/// Where the time goes.
+/// Measures where a run spends its time.
 #pragma once
 
 #include <chrono>
 
-namespace rhexis::app {
+namespace rhexis {
 
-/// Of a clock that only goes forward, s.
+/// The time of a clock that only goes forward, s.
 inline double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Adds the time that passes while it lives.
+/// Adds the time that passes while it lives to `total` (s).
 class Stopwatch {
  public:
   explicit Stopwatch(double& total) : total_(total), start_(seconds_now()) {}
@@ -23,4 +23,4 @@ class Stopwatch {
   double start_;
 };
 
-}  // namespace rhexis::app
+}  // namespace rhexis

@@ -1,4 +1,4 @@
-#include "app/console.hpp"
+#include "runtime/console.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,36 +6,18 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "app/stopwatch.hpp"
-#include "app/terminal.hpp"
+#include "core/stopwatch.hpp"
+#include "runtime/terminal.hpp"
+#include "core/format.hpp"
 #include "core/printable.hpp"
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 namespace {
 
 /// In bytes: what a warning quotes may be as long as a file.
 constexpr std::size_t longest_warning = 4000;
 
 }  // namespace
-
-std::string grouped(long long count) {
-  const std::string digits = std::to_string(std::abs(count));
-  std::string text = count < 0 ? "-" : "";
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
-}
-
-std::string duration(double seconds) {
-  if (!std::isfinite(seconds)) return "?";
-  if (seconds < 10) return fmt::format("{:.1f} s", seconds);
-  const auto whole = static_cast<long long>(std::llround(seconds));
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
-}
 
 Console::Console(bool is_root, bool quiet)
     : is_root_(is_root),
@@ -104,4 +86,4 @@ void Console::clear_bar() {
   bar_shown_ = false;
 }
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

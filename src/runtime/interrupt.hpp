@@ -11,7 +11,7 @@
 
 #include "output/run_record.hpp"
 
-namespace rhexis::app {
+namespace rhexis::runtime {
 
 /// Files beyond the limit of their size (SIGXFSZ) and closed pipes (SIGPIPE) become failures of the call
 /// that writes; SIGHUP that is ignored stays so. At the program's start, before MPI, which changes signals.
@@ -56,4 +56,4 @@ class InterruptGuard {
 /// about to end the program for all.
 void fail_records_alone(const std::string& reason) noexcept;
 
-}  // namespace rhexis::app
+}  // namespace rhexis::runtime

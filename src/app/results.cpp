@@ -1,0 +1,55 @@
+#include "app/results.hpp"
+
+namespace rhexis::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+}  // namespace
+
+void to_json(Json& json, const NetworkResults& network) {
+  json = Json::object({{"vessels", or_null(network.vessels)},
+                       {"junctions", or_null(network.junctions)},
+                       {"inflow_m3_s", or_null(network.inflow_m3_s)},
+                       {"max_imbalance", or_null(network.max_imbalance)},
+                       {"volume_m3", or_null(network.volume_m3)},
+                       {"surface_m2", or_null(network.surface_m2)},
+                       {"highest_reynolds", or_null(network.highest_reynolds)},
+                       {"highest_pressure_Pa", or_null(network.highest_pressure_Pa)},
+                       {"lowest_pressure_Pa", or_null(network.lowest_pressure_Pa)},
+                       {"solver", or_null(network.solver)},
+                       {"iterations", or_null(network.iterations)},
+                       {"queries", network.queries},
+                       {"screening", network.screening}});
+}
+
+void to_json(Json& json, const Results& results) {
+  json = Json::object({{"particles", or_null(results.particles)},
+                       {"bonds", or_null(results.bonds)},
+                       {"family_max", or_null(results.family_max)},
+                       {"time_step_s", or_null(results.time_step_s)},
+                       {"stable_time_step_s", or_null(results.stable_time_step_s)},
+                       {"steps", or_null(results.steps)},
+                       {"simulated_s", or_null(results.simulated_s)},
+                       {"first_bond_break_s", or_null(results.first_bond_break_s)},
+                       {"rupture_onset_s", or_null(results.rupture_onset_s)},
+                       {"pressure_at_onset_Pa", or_null(results.pressure_at_onset_Pa)},
+                       {"blood_pressure_at_onset_Pa", or_null(results.blood_pressure_at_onset_Pa)},
+                       {"max_displacement_at_onset_m", or_null(results.max_displacement_at_onset_m)},
+                       {"max_displacement_m", or_null(results.max_displacement_m)},
+                       {"max_damage", or_null(results.max_damage)},
+                       {"rupture_length_m", or_null(results.rupture_length_m)},
+                       {"opening_area_m2", or_null(results.opening_area_m2)},
+                       {"energy_drift", or_null(results.energy_drift)},
+                       {"network", results.network},
+                       {"coupling", results.coupling},
+                       {"cascade", results.cascade},
+                       {"ensemble", results.ensemble}});
+}
+
+}  // namespace rhexis::app

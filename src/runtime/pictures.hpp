@@ -1,0 +1,66 @@
+/// Starting ParaView for a run, or saying why there will be no pictures.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "insitu/parameters.hpp"
+#include "insitu/pipeline.hpp"
+#include "output/results_folder.hpp"
+#include "output/staging_folder.hpp"
+#include "parallel/communicator.hpp"
+
+namespace rhexis::runtime {
+
+struct Pictures {
+  /// Runs the scripts; their pictures become results, in images/, when they are complete. Collective; throws
+  /// as insitu::Pipeline, and RunError where a picture would replace one of the user's or of another script.
+  void process(const insitu::Channels& channels);
+
+  std::unique_ptr<output::StagingFolder> staging;  ///< where scripts draw
+  std::unique_ptr<insitu::Pipeline> pipeline;      ///< null: no pictures
+  std::string description;                         ///< who draws, or why nobody does; empty: not started
+  /// Where several runs share them, one after the other: steps and seconds of those before.
+  long steps_before = 0;
+  double seconds_before = 0;
+};
+
+/// What a run is to draw.
+struct PicturesPlan {
+  insitu::Parameters insitu = {};
+  /// Names of the fields of the channels `particles` and `network`; none: the run has no such channel.
+  std::optional<std::vector<std::string>> particle_fields = {}, network_fields = {};
+  std::string obstacle = {};  ///< why there can be no pictures, where scripts are named; else empty
+};
+
+/// The scripts named in the input become absolute paths: of Rhexis's own by a plain name, of the user's by a
+/// path. Then reads them without running them, where there can be pictures, or says what the obstacle is; what
+/// is wrong with a script is an InputError of the key insitu.scripts. Collective.
+void find_scripts(PicturesPlan& plan, const std::string& input_file, parallel::Communicator comm);
+
+/// `before_abort`: see insitu::Settings. Collective. Throws InputError for a script that has become bad since
+/// `find_scripts`.
+Pictures start_pictures(const PicturesPlan& plan, const output::ResultsFolder& results,
+                        parallel::Communicator comm, std::function<void(const std::string&)> before_abort);
+
+/// A run's particles with the steps and seconds of the runs before.
+class LaterSource : public PointSource {
+ public:
+  LaterSource(PointSource& source, const Pictures& pictures) : source_(source), pictures_(pictures) {}
+  long step() const override { return source_.step() + pictures_.steps_before; }
+  double time_s() const override { return source_.time_s() + pictures_.seconds_before; }
+  const PointLayout& layout() const override { return source_.layout(); }
+  std::span<const FieldInfo> fields() const override { return source_.fields(); }
+  FieldView positions() override { return source_.positions(); }
+  FieldView field(std::string_view name) override { return source_.field(name); }
+  std::vector<Annotation> annotations() const override { return source_.annotations(); }
+
+ private:
+  PointSource& source_;
+  const Pictures& pictures_;
+};
+
+}  // namespace rhexis::runtime
