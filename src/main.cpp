@@ -1,9 +1,9 @@
 // rhexis: parse, build, run, report.
 #include "app/commands.hpp"
+#include "parallel/communicator.hpp"
 #include "runtime/guarded.hpp"
 #include "runtime/interrupt.hpp"
 #include "runtime/terminal.hpp"
-#include "parallel/communicator.hpp"
 
 int main(int argc, char** argv) {
   rhexis::runtime::open_missing_streams();

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <functional>
 
-#include "runtime/console.hpp"
 #include "app/network_coupling.hpp"
 #include "app/vessel_run.hpp"
-#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/bonds/surface_correction.hpp"
 #include "peridynamics/engine/body.hpp"
@@ -18,6 +17,7 @@
 #include "peridynamics/loads/schedule.hpp"
 #include "peridynamics/stability/linear_limit.hpp"
 #include "peridynamics/statics/elastic_error.hpp"
+#include "runtime/console.hpp"
 
 namespace rhexis::app {
 namespace {

@@ -9,18 +9,18 @@
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
-#include "runtime/console.hpp"
 #include "app/coupled_run.hpp"
 #include "app/ensemble_run.hpp"
 #include "app/folder_plan.hpp"
 #include "app/network_run.hpp"
-#include "core/stopwatch.hpp"
-#include "runtime/terminal.hpp"
-#include "runtime/version.hpp"
 #include "app/vessel_run.hpp"
+#include "core/stopwatch.hpp"
 #include "input/keys.hpp"
 #include "output/unfinished_run.hpp"
 #include "parallel/node.hpp"
+#include "runtime/console.hpp"
+#include "runtime/terminal.hpp"
+#include "runtime/version.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -28,7 +28,8 @@ namespace {
 /// The exit status of what does nothing but print.
 int told(parallel::Communicator comm) {
   const std::string failure = runtime::output_failure();
-  if (!failure.empty()) runtime::print_error(fmt::format("rhexis: stdout could not be written: {}\n", failure));
+  if (!failure.empty())
+    runtime::print_error(fmt::format("rhexis: stdout could not be written: {}\n", failure));
   return comm.all_reduce(std::int64_t{!failure.empty()}, parallel::Reduce::max) != 0 ? 3 : 0;
 }
 

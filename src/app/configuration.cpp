@@ -10,7 +10,6 @@
 
 #include "app/pictures.hpp"
 #include "app/scene_keys.hpp"
-#include "runtime/version.hpp"
 #include "app/wall_memory.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -32,6 +31,8 @@
 #include "peridynamics/loads/schedule_table.hpp"
 #include "peridynamics/loads/thin_spots.hpp"
 #include "peridynamics/stability/time_steps.hpp"
+#include "runtime/version.hpp"
+#include "studies/ensemble/walls.hpp"
 #include "studies/screening/screening.hpp"
 
 namespace rhexis::app {

@@ -9,17 +9,17 @@
 #include "app/cascade_state.hpp"
 #include "app/checkpoint_input.hpp"
 #include "app/folder_plan.hpp"
-#include "app/pictures.hpp"
 #include "app/network_coupling.hpp"
 #include "app/network_files.hpp"
 #include "app/network_tables.hpp"
-#include "core/stopwatch.hpp"
-#include "runtime/version.hpp"
+#include "app/pictures.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "output/atomic_file.hpp"
 #include "parallel/together.hpp"
+#include "runtime/version.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -81,9 +81,9 @@ class CascadeRun {
       return last.signal;
     });
     print_summary(ending.interrupted() ? runtime::interrupted_by(ending.signal)
-                : network_->at_rest()
-                    ? fmt::format("no other vessel's risk is above {}", text(c_.coupling.risk_limit))
-                    : "after cascade.events");
+                  : network_->at_rest()
+                      ? fmt::format("no other vessel's risk is above {}", text(c_.coupling.risk_limit))
+                      : "after cascade.events");
     return ending;
   }
 
@@ -127,7 +127,8 @@ class CascadeRun {
     if (network_->at_rest())
       throw InputError(session_.options().restart.string() +
                        ": the network is not as it was: no vessel is at risk now");
-    interrupted_event_ = std::make_unique<VesselRun>(c_, event_options(session_.options().restart), comm_, &*network_);
+    interrupted_event_ =
+        std::make_unique<VesselRun>(c_, event_options(session_.options().restart), comm_, &*network_);
     interrupted_event_->prepare();
   }
 
@@ -157,7 +158,8 @@ class CascadeRun {
   runtime::Ending simulate() {
     const auto number = state_.events.size() + 1;
     const QueriedVessel vessel = network_->vessel();
-    session_.console().line(fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, network_->risk()));
+    session_.console().line(
+        fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, network_->risk()));
     session_.pictures()->steps_before = state_.steps_before;
     session_.pictures()->seconds_before = state_.elapsed;
     const double pressure = network_->intact_pressure();
@@ -196,7 +198,8 @@ class CascadeRun {
       if (event.inflow_after && !alike(*event.inflow_after, network_->inflow())) {
         throw InputError(fmt::format(
             "{}: the network is not as it was: after event {} its inflow was {} m3/s, and now is {} m3/s",
-            session_.options().restart.string(), state_.events.size(), *event.inflow_after, network_->inflow()));
+            session_.options().restart.string(), state_.events.size(), *event.inflow_after,
+            network_->inflow()));
       }
       event.inflow_after = network_->inflow();
       if (event.ruptured == true && !network_->leaks().empty()) event.leak = network_->leaks().back();
@@ -209,8 +212,8 @@ class CascadeRun {
   /// Between events, so that nothing is lost if the run ends before the next one.
   void write_checkpoint() {
     const Stopwatch watch(session_.spent().output);
-    output::CheckpointWriter file(session_.folder().claim(event_checkpoint_name(state_.events.size())), runtime::version(),
-                                  comm_);
+    output::CheckpointWriter file(session_.folder().claim(event_checkpoint_name(state_.events.size())),
+                                  runtime::version(), comm_);
     write_input(file, c_);
     save_cascade(state_, comm_, file);
     file.close();
@@ -286,7 +289,8 @@ class CascadeRun {
 
 }  // namespace
 
-runtime::Ending run_coupled(Configuration configuration, const runtime::RunOptions& options, parallel::Communicator comm) {
+runtime::Ending run_coupled(Configuration configuration, const runtime::RunOptions& options,
+                            parallel::Communicator comm) {
   if (configuration.coupling.events > 0) return CascadeRun(std::move(configuration), options, comm).run();
   runtime::Console console(comm.is_root(), options.quiet);
   runtime::print_title(console, configuration.title, configuration.file);

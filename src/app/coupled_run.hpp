@@ -2,12 +2,13 @@
 #pragma once
 
 #include "app/configuration.hpp"
-#include "runtime/run_options.hpp"
 #include "parallel/communicator.hpp"
+#include "runtime/run_options.hpp"
 
 namespace rhexis::app {
 
 /// From the configuration to its results. Collective. Throws as VesselRun::run.
-runtime::Ending run_coupled(Configuration configuration, const runtime::RunOptions& options, parallel::Communicator comm);
+runtime::Ending run_coupled(Configuration configuration, const runtime::RunOptions& options,
+                            parallel::Communicator comm);
 
 }  // namespace rhexis::app

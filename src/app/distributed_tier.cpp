@@ -6,15 +6,15 @@
 #include <optional>
 #include <vector>
 
-#include "runtime/console.hpp"
 #include "app/graph_network.hpp"
 #include "app/network_tier.hpp"
-#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
+#include "core/stopwatch.hpp"
 #include "hemodynamics/steady/graph/distributed_flow.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/together.hpp"
+#include "runtime/console.hpp"
 
 namespace rhexis::app {
 namespace {

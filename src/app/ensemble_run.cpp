@@ -9,16 +9,16 @@
 
 #include "app/folder_plan.hpp"
 #include "app/pictures.hpp"
-#include "runtime/interrupt.hpp"
-#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "core/text_file.hpp"
 #include "input/difference.hpp"
 #include "output/atomic_file.hpp"
 #include "parallel/exchange.hpp"
 #include "parallel/together.hpp"
 #include "peridynamics/engine/bond_kernel.hpp"
+#include "runtime/interrupt.hpp"
 #include "studies/ensemble/sample_table.hpp"
 
 namespace rhexis::app {
@@ -49,7 +49,8 @@ std::string table_of(const std::vector<Sample>& samples) {
 
 }  // namespace
 
-EnsembleRun::EnsembleRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm)
+EnsembleRun::EnsembleRun(Configuration configuration, runtime::RunOptions options,
+                         parallel::Communicator comm)
     : c_(std::move(configuration)),
       comm_(comm),
       session_(scene_of(c_), std::move(options), comm,
@@ -130,15 +131,17 @@ void EnsembleRun::print_header() {
   const ensemble::Parameters& e = c_.ensemble;
   session_.print_title();
   session_.warn(c_.warnings);
-  session_.console().item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}; spacing {}",
+  session_.console().item("vessel",
+                          fmt::format("lumen radius {}, outer radius {}, length {}; ends {}; spacing {}",
                                       quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
                                       quantity(v.length, "m"), v.ends, quantity(*v.spacing, "m")));
-  session_.console().item("pressures",
-                fmt::format("{} from {} to {} ({}), up to {}", e.pressures.size(), mmhg(e.pressures.front()),
-                            mmhg(e.pressures.back()), v.schedule, quantity(v.end_time, "s")));
-  session_.console().item("walls", fmt::format("{} (seed {}); spreads: strength {}, thickness {}, stiffness {}",
-                                     e.samples, e.seed, text(e.strength_spread), text(e.thickness_spread),
-                                     text(e.stiffness_spread)));
+  session_.console().item("pressures", fmt::format("{} from {} to {} ({}), up to {}", e.pressures.size(),
+                                                   mmhg(e.pressures.front()), mmhg(e.pressures.back()),
+                                                   v.schedule, quantity(v.end_time, "s")));
+  session_.console().item(
+      "walls",
+      fmt::format("{} (seed {}); spreads: strength {}, thickness {}, stiffness {}", e.samples, e.seed,
+                  text(e.strength_spread), text(e.thickness_spread), text(e.stiffness_spread)));
   const auto done = e.vessels() - static_cast<long long>(tasks_.size());
   const auto others = static_cast<long long>(earlier_) - done;
   session_.console().item(
@@ -156,7 +159,7 @@ void EnsembleRun::run_samples() {
     const auto ruptured =
         std::count_if(samples_.begin(), samples_.end(), [](const Sample& s) { return s.ruptured; });
     session_.console().progress(total - static_cast<long>(tasks_.size() - next), total,
-                      fmt::format("{} ruptured", grouped(ruptured)), "sample");
+                                fmt::format("{} ruptured", grouped(ruptured)), "sample");
   };
   progress(0);
   std::size_t each = 1;  // samples of a rank in a round
@@ -201,7 +204,8 @@ int EnsembleRun::run_round(std::size_t first, std::size_t count) {
   keep(finished);
   failure = comm_.first_non_empty(failure);
   if (!failure.empty()) throw RunError(failure);
-  const auto signal = comm_.all_reduce(std::int64_t{runtime::InterruptGuard::requested()}, parallel::Reduce::max);
+  const auto signal =
+      comm_.all_reduce(std::int64_t{runtime::InterruptGuard::requested()}, parallel::Reduce::max);
   return samples_.size() - earlier_ < tasks_.size() ? static_cast<int>(signal) : 0;
 }
 
@@ -247,24 +251,25 @@ void EnsembleRun::finish() {
 
 void EnsembleRun::print_summary() {
   if (signal_ != 0) {
-    session_.console().important(fmt::format("Interrupted by {}; finished samples are saved. The same command goes on.",
-                                   runtime::signal_name(signal_)));
+    session_.console().important(
+        fmt::format("Interrupted by {}; finished samples are saved. The same command goes on.",
+                    runtime::signal_name(signal_)));
   } else {
     session_.console().line("Done.");
   }
   session_.console().line("    pressure    samples  ruptured  probability   95 % interval   mean onset");
   for (const ensemble::Probability& p : probabilities_) {
     const auto [low, high] = p.interval();
-    session_.console().line(fmt::format("  {:>12}  {:>7}  {:>8}  {:>11.3f}  {:.3f} to {:.3f}  {:>11}", mmhg(p.pressure),
-                              p.samples, p.ruptured, p.value(), low, high,
-                              p.mean_onset ? quantity(*p.mean_onset, "s", 3) : "none"));
+    session_.console().line(fmt::format("  {:>12}  {:>7}  {:>8}  {:>11.3f}  {:.3f} to {:.3f}  {:>11}",
+                                        mmhg(p.pressure), p.samples, p.ruptured, p.value(), low, high,
+                                        p.mean_onset ? quantity(*p.mean_onset, "s", 3) : "none"));
   }
   const Json& each = results_.ensemble["rank_seconds_per_sample"];
-  session_.console().item("samples",
-                fmt::format("{} in all, {} new; {}", grouped(static_cast<long long>(samples_.size())),
-                            grouped(static_cast<long long>(samples_.size() - earlier_)),
-                            each.is_null() ? "none simulated"
-                                           : quantity(each.get<double>(), "s", 3) + " each on one rank"));
+  session_.console().item(
+      "samples", fmt::format("{} in all, {} new; {}", grouped(static_cast<long long>(samples_.size())),
+                             grouped(static_cast<long long>(samples_.size() - earlier_)),
+                             each.is_null() ? "none simulated"
+                                            : quantity(each.get<double>(), "s", 3) + " each on one rank"));
   session_.print_cost(session_.performance());
 }
 

@@ -7,8 +7,8 @@
 
 #include "app/configuration.hpp"
 #include "app/results.hpp"
-#include "runtime/run_session.hpp"
 #include "output/atomic_file.hpp"
+#include "runtime/run_session.hpp"
 #include "studies/ensemble/probability.hpp"
 #include "studies/ensemble/sample.hpp"
 

@@ -5,18 +5,18 @@
 #include <cmath>
 #include <map>
 
-#include "runtime/console.hpp"
 #include "app/graph_network.hpp"
 #include "app/network_tier.hpp"
-#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/memory.hpp"
+#include "core/stopwatch.hpp"
 #include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "hemodynamics/steady/graph/haematocrit.hpp"
 #include "hemodynamics/steady/ruptured_network.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/together.hpp"
+#include "runtime/console.hpp"
 
 namespace rhexis::app {
 namespace {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/configuration.hpp"
-#include "runtime/run_options.hpp"
 #include "output/results_folder.hpp"
+#include "runtime/run_options.hpp"
 
 namespace rhexis::app {
 

@@ -8,7 +8,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "runtime/console.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
@@ -18,6 +17,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/large_array.hpp"
 #include "parallel/threads.hpp"
+#include "runtime/console.hpp"
 
 namespace rhexis::app {
 

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/console.hpp"
 #include "app/network_tier.hpp"
-#include "core/stopwatch.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "hemodynamics/viscosity.hpp"
 #include "network/tree_selection.hpp"
+#include "runtime/console.hpp"
 
 namespace rhexis::app {
 namespace {

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "app/check.hpp"
-#include "runtime/console.hpp"
 #include "app/network_tier.hpp"
-#include "core/stopwatch.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "hemodynamics/steady/tree/tree_statistics.hpp"
 #include "network/tree_pair.hpp"
+#include "runtime/console.hpp"
 
 namespace rhexis::app {
 namespace {

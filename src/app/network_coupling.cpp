@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "app/network_files.hpp"
-#include "core/stopwatch.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/steady/bleeding.hpp"
 #include "hemodynamics/viscosity.hpp"
@@ -18,7 +18,8 @@
 
 namespace rhexis::app {
 
-NetworkCoupling::NetworkCoupling(const Configuration& c, parallel::Communicator comm, runtime::Console& console)
+NetworkCoupling::NetworkCoupling(const Configuration& c, parallel::Communicator comm,
+                                 runtime::Console& console)
     : c_(c), comm_(comm) {
   {
     const Stopwatch watch(network_s_);

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "app/cascade_state.hpp"
-#include "runtime/console.hpp"
 #include "app/network_tier.hpp"
+#include "app/results.hpp"
 #include "coupling/net_pressure.hpp"
 #include "coupling/wall_segment.hpp"
 #include "output/atomic_file.hpp"
 #include "output/checkpoint.hpp"
 #include "output/results_folder.hpp"
-#include "app/results.hpp"
+#include "runtime/console.hpp"
 
 namespace rhexis::app {
 

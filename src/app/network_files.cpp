@@ -1,12 +1,12 @@
 #include "app/network_files.hpp"
 
 #include "app/network_tables.hpp"
-#include "runtime/version.hpp"
 #include "network/vtp_network.hpp"
 #include "output/atomic_file.hpp"
 #include "output/line_series.hpp"
 #include "output/temporary_file.hpp"
 #include "parallel/together.hpp"
+#include "runtime/version.hpp"
 
 namespace rhexis::app {
 namespace {

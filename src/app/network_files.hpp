@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/network_tier.hpp"
-#include "output/results_folder.hpp"
 #include "app/results.hpp"
+#include "output/results_folder.hpp"
 
 namespace rhexis::app {
 

@@ -26,12 +26,12 @@ void NetworkRun::print_header() {
   session_.print_title();
   session_.warn(c_.warnings);
   session_.console().item("network", tier_->description());
-  session_.console().item("blood",
-                h.viscosity_law == "constant"
-                    ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
-                    : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", h.viscosity_law,
-                                  quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
-                                  h.phase_separation ? ", dividing at bifurcations" : ""));
+  session_.console().item(
+      "blood", h.viscosity_law == "constant"
+                   ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
+                   : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", h.viscosity_law,
+                                 quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
+                                 h.phase_separation ? ", dividing at bifurcations" : ""));
   session_.print_surroundings();
 }
 
@@ -45,32 +45,36 @@ void NetworkRun::print_summary() {
       // The first, the last, and every so many in between.
       const auto count = static_cast<int>(s.statistics->generations.size());
       if (g.generation % ((count + 11) / 12) != 0 && g.generation != count - 1) continue;
-      session_.console().line(fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}",
-                                g.generation, grouped(2 * static_cast<long long>(g.vessels)),
-                                quantity(g.radius[0].mean, "m", 3), quantity(g.flow.mean * 6e4, "L/min", 3),
-                                g.pressure[0].mean / 133.322387415, g.pressure[1].mean / 133.322387415,
-                                quantity(g.hoop_stress[0].mean, "Pa", 3)));
+      session_.console().line(
+          fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}", g.generation,
+                      grouped(2 * static_cast<long long>(g.vessels)), quantity(g.radius[0].mean, "m", 3),
+                      quantity(g.flow.mean * 6e4, "L/min", 3), g.pressure[0].mean / 133.322387415,
+                      g.pressure[1].mean / 133.322387415, quantity(g.hoop_stress[0].mean, "Pa", 3)));
     }
   }
-  session_.console().item("network", fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));
-  session_.console().item("inflow",
-                fmt::format("{}; Reynolds numbers up to {:.3g}", flow_text(s.inflow), s.highest_reynolds));
-  session_.console().item("pressure", fmt::format("from {} to {}", mmhg(s.highest_pressure), mmhg(s.lowest_pressure)));
+  session_.console().item("network",
+                          fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));
+  session_.console().item(
+      "inflow", fmt::format("{}; Reynolds numbers up to {:.3g}", flow_text(s.inflow), s.highest_reynolds));
+  session_.console().item("pressure",
+                          fmt::format("from {} to {}", mmhg(s.highest_pressure), mmhg(s.lowest_pressure)));
   if (s.volume) {
-    session_.console().item("blood", fmt::format("{:.4g} mL in all vessels, wall surface {:.4g} m2", *s.volume * 1e6,
-                                       *s.surface));
+    session_.console().item("blood", fmt::format("{:.4g} mL in all vessels, wall surface {:.4g} m2",
+                                                 *s.volume * 1e6, *s.surface));
   }
   if (s.max_imbalance) {
-    session_.console().item("conserved", fmt::format("to {} of the inflow at worst", percent(*s.max_imbalance)));
+    session_.console().item("conserved",
+                            fmt::format("to {} of the inflow at worst", percent(*s.max_imbalance)));
   }
-  session_.console().item("solver",
-                s.iterations ? fmt::format("{}, {} iterations", s.solver, *s.iterations) : s.solver);
+  session_.console().item(
+      "solver", s.iterations ? fmt::format("{}, {} iterations", s.solver, *s.iterations) : s.solver);
   if (s.haematocrit_iterations) {
-    session_.console().item("haematocrit", fmt::format("fixed point after {} iterations", *s.haematocrit_iterations));
+    session_.console().item("haematocrit",
+                            fmt::format("fixed point after {} iterations", *s.haematocrit_iterations));
   }
   for (const QueriedVessel& q : s.queries) {
-    session_.console().item("vessel",
-                  fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name, kind_text(q.kind),
+    session_.console().item(
+        "vessel", fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name, kind_text(q.kind),
                               q.generation < 0 ? "" : fmt::format(", generation {}", q.generation),
                               quantity(q.radius, "m"), quantity(q.length, "m"), flow_text(q.flow),
                               mmhg(q.pressure_from), mmhg(q.pressure_to)));

@@ -5,8 +5,8 @@
 #include "app/folder_plan.hpp"
 #include "app/network_files.hpp"
 #include "app/pictures.hpp"
-#include "core/stopwatch.hpp"
 #include "core/error.hpp"
+#include "core/stopwatch.hpp"
 
 namespace rhexis::app {
 

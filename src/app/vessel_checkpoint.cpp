@@ -5,13 +5,13 @@
 
 #include "app/checkpoint_input.hpp"
 #include "app/folder_plan.hpp"
-#include "core/stopwatch.hpp"
-#include "runtime/version.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "output/checkpoint.hpp"
 #include "parallel/together.hpp"
+#include "runtime/version.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -82,7 +82,8 @@ void VesselRun::write_checkpoint(long step) {
   last_checkpoint_ = path;
   if (signal_ == 0) return;
   if (comm_.is_root()) session_.record().fail_alone(runtime::interrupted_by(signal_));
-  session_.console().important(fmt::format("  {}; go on with --restart {}", runtime::interrupted_by(signal_), path.string()));
+  session_.console().important(
+      fmt::format("  {}; go on with --restart {}", runtime::interrupted_by(signal_), path.string()));
 }
 
 /// Refuses the checkpoint of another body or time step; warns of another load.

@@ -22,35 +22,40 @@ void VesselRun::print_header() {
   if (coupling_ == nullptr) session_.print_title();
   session_.warn(c_.warnings);
   if (!session_.options().restart.empty()) {
-    session_.console().item("restart", fmt::format("from step {} ({}) of {}", first_step_,
-                                         quantity(time_at(first_step_), "s"), session_.options().restart.string()));
+    session_.console().item(
+        "restart", fmt::format("from step {} ({}) of {}", first_step_, quantity(time_at(first_step_), "s"),
+                               session_.options().restart.string()));
   }
   session_.console().item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
-                                      quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
-                                      quantity(v.length, "m"), v.ends));
-  session_.console().item("particles", fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}",
-                                         grouped(*results_.particles), lattice_.section.size(), lattice_.rows,
-                                         v.cross_section, quantity(lattice_.spacing, "m"),
-                                         quantity(lattice_.horizon, "m")));
+                                                quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
+                                                quantity(v.length, "m"), v.ends));
+  session_.console().item(
+      "particles",
+      fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}", grouped(*results_.particles),
+                  lattice_.section.size(), lattice_.rows, v.cross_section, quantity(lattice_.spacing, "m"),
+                  quantity(lattice_.horizon, "m")));
   const peridynamics::Scatter& scatter = v.scatter;
   if (!scatter.none()) {
-    session_.console().item("scatter", fmt::format("critical stretch {:g} %, stiffness {:g} % ({}) over {}, seed {}",
-                                         100 * scatter.critical_stretch, 100 * scatter.stiffness, scatter.law,
-                                         quantity(*scatter.correlation_length, "m"), scatter.seed));
+    session_.console().item("scatter",
+                            fmt::format("critical stretch {:g} %, stiffness {:g} % ({}) over {}, seed {}",
+                                        100 * scatter.critical_stretch, 100 * scatter.stiffness, scatter.law,
+                                        quantity(*scatter.correlation_length, "m"), scatter.seed));
   }
   if (v.spots.size() > 0) {
     session_.console().item("spots", fmt::format("{}, which leave out {} particles", v.spots.size(),
-                                       grouped(lattice_.particles() - *results_.particles)));
+                                                 grouped(lattice_.particles() - *results_.particles)));
   }
-  session_.console().item("bonds", fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
-                                     *results_.family_max, v.bond_precision));
+  session_.console().item("bonds",
+                          fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
+                                      *results_.family_max, v.bond_precision));
   session_.console().item("strength", peridynamics::describe_strength(v));
-  session_.console().item("time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
-                                    quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
-                                    quantity(c_.stable_time_step, "s")));
+  session_.console().item("time",
+                          fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
+                                      quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
+                                      quantity(c_.stable_time_step, "s")));
   session_.console().item("load", fmt::format("{} ({}) on the undeformed lumen, layer {}, venting {}",
-                                    quantity(peridynamics::highest_pressure(v), "Pa"),
-                                    peridynamics::describe_schedule(v), v.layer, v.venting));
+                                              quantity(peridynamics::highest_pressure(v), "Pa"),
+                                              peridynamics::describe_schedule(v), v.layer, v.venting));
   if (coupling_ != nullptr) {
     coupling_->print_header(session_.console());
   } else {
@@ -78,14 +83,15 @@ void VesselRun::print_summary() {
       fmt::format("largest displacement {}, largest damage {:.0f} %, opening {:.3g} mm2",
                   quantity(*r.max_displacement_m, "m", 3), 100 * *r.max_damage, *r.opening_area_m2 * 1e6));
   if (least_vent_ < 1) {
-    session_.console().item("venting", fmt::format("the opening let the pressure fall to {:.0f} % of the scheduled one",
-                                         100 * least_vent_));
+    session_.console().item(
+        "venting",
+        fmt::format("the opening let the pressure fall to {:.0f} % of the scheduled one", 100 * least_vent_));
   }
   session_.console().item("energy", fmt::format("balance off by {:.1e} of the work done", *r.energy_drift));
   const long steps = step_ - first_step_;
   session_.console().item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s, both ends counted",
-                                     *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
-                                     p.bond_evaluations_per_s.value_or(0)));
+                                               *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
+                                               p.bond_evaluations_per_s.value_or(0)));
   if (coupling_ != nullptr) coupling_->print_summary(session_.console());
   session_.print_cost(p);
 }

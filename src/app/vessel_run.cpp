@@ -9,14 +9,14 @@
 
 #include "app/folder_plan.hpp"
 #include "app/pictures.hpp"
-#include "runtime/interrupt.hpp"
-#include "core/stopwatch.hpp"
-#include "runtime/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "peridynamics/engine/bond_kernel.hpp"
 #include "peridynamics/loads/schedule.hpp"
+#include "runtime/interrupt.hpp"
+#include "runtime/version.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -126,7 +126,8 @@ void VesselRun::open_results() {
   plan.version = runtime::version();
   plan.precision = output::precision_of(c_.output);
   plan.formats = output::formats_of(c_.output);
-  for (const std::string& name : output::series_files(plan.basename, plan.formats)) session_.folder().claim(name);
+  for (const std::string& name : output::series_files(plan.basename, plan.formats))
+    session_.folder().claim(name);
   plan.annotations = {"pressure"};
   for (const FieldInfo& field : peridynamics::ParticleSource::all_fields()) {
     if (std::find(c_.output.fields.begin(), c_.output.fields.end(), field.name) != c_.output.fields.end()) {
@@ -157,7 +158,7 @@ bool VesselRun::pictures_due(long step, bool with_output) {
       c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : with_output;
   // Scripts are asked last: the answer may need all ranks.
   return due && session_.pictures()->pipeline->wants(step + session_.pictures()->steps_before,
-                                           time_at(step) + session_.pictures()->seconds_before);
+                                                     time_at(step) + session_.pictures()->seconds_before);
 }
 
 void VesselRun::observe(long step, bool with_output, bool with_pictures) {
@@ -224,7 +225,8 @@ void VesselRun::show(bool with_output, bool with_pictures) {
     try {
       if (!has_exchanged) write_checkpoint(step_);
       if (!last_checkpoint_.empty())
-        session_.console().important(fmt::format("  failed; go on with --restart {}", last_checkpoint_.string()));
+        session_.console().important(
+            fmt::format("  failed; go on with --restart {}", last_checkpoint_.string()));
     } catch (const RunError& also) {
       session_.warn(std::string("no checkpoint: ") + also.what());
     }
@@ -359,8 +361,8 @@ void VesselRun::time_loop() {
       check_balance(step_, body_->totals());
     }
     session_.console().progress(step_, c_.steps,
-                      fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
-                                  quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
+                                fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
+                                            quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
     if (signal_ != 0 || step_ == c_.steps) {
       // No further step tells what happened at this one.
       const peridynamics::Totals t = body_->totals();

@@ -6,13 +6,13 @@
 
 #include "app/network_coupling.hpp"
 #include "app/results.hpp"
-#include "runtime/run_session.hpp"
 #include "output/checkpoint.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
 #include "peridynamics/engine/body.hpp"
 #include "peridynamics/monitors/opening.hpp"
 #include "peridynamics/monitors/particle_source.hpp"
+#include "runtime/run_session.hpp"
 
 namespace rhexis::app {
 

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "core/stopwatch.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
 #include "peridynamics/statics/equilibrium.hpp"
 
 namespace rhexis::app {
@@ -37,10 +37,11 @@ void VesselRun::start_at_equilibrium() {
         "equilibrium; start from a lower pressure",
         quantity(v.equilibrium_pressure, "Pa"), grouped(broken), text(*v.critical_stretch)));
   }
-  session_.console().item("start", fmt::format("equilibrium under {}: {} steps of relaxation, residual {:.1e}, strain "
-                                     "energy {}",
-                                     quantity(v.equilibrium_pressure, "Pa"), found.steps, found.residual,
-                                     quantity(found.strain_energy, "J")));
+  session_.console().item("start",
+                          fmt::format("equilibrium under {}: {} steps of relaxation, residual {:.1e}, strain "
+                                      "energy {}",
+                                      quantity(v.equilibrium_pressure, "Pa"), found.steps, found.residual,
+                                      quantity(found.strain_energy, "J")));
 }
 
 }  // namespace rhexis::app

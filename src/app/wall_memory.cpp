@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <functional>
 
-#include "runtime/version.hpp"
 #include "core/format.hpp"
 #include "core/memory.hpp"
 #include "parallel/node.hpp"
 #include "parallel/together.hpp"
+#include "runtime/version.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -109,7 +109,8 @@ void settle_memory(Configuration& c, parallel::Communicator comm) {
   c.wall_memory = memory_of(c, c.vessel, ranks);
   const peridynamics::WallSize& size = c.wall_size;
   if (c.say && c.checks) {
-    const bool reads_scripts = c.insitu.enabled && !c.insitu.scripts.empty() && !runtime::paraview_version().empty();
+    const bool reads_scripts =
+        c.insitu.enabled && !c.insitu.scripts.empty() && !runtime::paraview_version().empty();
     c.say("memory",
           fmt::format("about {} for the wall, {}; this check takes up to {}{}", megabytes(c.wall_memory.run),
                       c.is_ensemble() ? "on each rank" : "all ranks together",

@@ -26,8 +26,8 @@ Json or_null(const std::optional<T>& value) {
 
 }  // namespace
 
-RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance, const Values& results, const Values& performance,
-                     parallel::Communicator communicator)
+RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance, const Values& results,
+                     const Values& performance, parallel::Communicator communicator)
     : path_(std::move(path)), communicator_(communicator) {
   document_ = Json::object({{"version", provenance.version},
                             {"commit", provenance.commit},

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "core/stopwatch.hpp"
-#include "runtime/terminal.hpp"
 #include "core/format.hpp"
 #include "core/printable.hpp"
+#include "core/stopwatch.hpp"
+#include "runtime/terminal.hpp"
 
 namespace rhexis::runtime {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <exception>
 
-#include "runtime/terminal.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
 #include "parallel/communicator.hpp"
+#include "runtime/terminal.hpp"
 
 namespace rhexis::runtime {
 

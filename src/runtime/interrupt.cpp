@@ -13,8 +13,8 @@
 #include <thread>
 #include <vector>
 
-#include "runtime/terminal.hpp"
 #include "output/temporary_file.hpp"
+#include "runtime/terminal.hpp"
 
 namespace rhexis::runtime {
 namespace {

@@ -37,8 +37,8 @@ struct PicturesPlan {
 };
 
 /// The scripts named in the input become absolute paths: of Rhexis's own by a plain name, of the user's by a
-/// path. Then reads them without running them, where there can be pictures, or says what the obstacle is; what
-/// is wrong with a script is an InputError of the key insitu.scripts. Collective.
+/// path. Then reads them without running them, where there can be pictures, or says what the obstacle is;
+/// what is wrong with a script is an InputError of the key insitu.scripts. Collective.
 void find_scripts(PicturesPlan& plan, const std::string& input_file, parallel::Communicator comm);
 
 /// `before_abort`: see insitu::Settings. Collective. Throws InputError for a script that has become bad since

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <ctime>
 
-#include "output/movie.hpp"
-#include "core/stopwatch.hpp"
-#include "runtime/terminal.hpp"
-#include "runtime/version.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/stopwatch.hpp"
+#include "output/movie.hpp"
 #include "output/temporary_file.hpp"
 #include "parallel/link.hpp"
 #include "parallel/together.hpp"
+#include "runtime/terminal.hpp"
+#include "runtime/version.hpp"
 
 namespace rhexis::runtime {
 
@@ -92,7 +92,8 @@ void RunSession::note_failure(const std::string& reason) {
 
 void RunSession::start_pictures() {
   const Stopwatch watch(spent_.insitu);
-  if (!options_.pictures) *pictures_ = runtime::start_pictures(scene_.pictures, *folder_, comm_, fail_records_alone);
+  if (!options_.pictures)
+    *pictures_ = runtime::start_pictures(scene_.pictures, *folder_, comm_, fail_records_alone);
 }
 
 void RunSession::finish_pictures() {
@@ -109,7 +110,7 @@ void RunSession::make_movie() {
     if (!comm_.is_root()) return;
     output::TemporaryFile movie(folder_->path() / "movie.mp4");
     problem = output::make_movie(folder_->path() / "images", folder_->files_in("images"), movie.name(),
-                              scene_.frames_per_second);
+                                 scene_.frames_per_second);
     if (!problem.empty()) return;
     folder_->claim_on_root("movie.mp4");
     movie.put_in_place();

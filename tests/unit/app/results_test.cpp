@@ -26,11 +26,12 @@ void expect_keys(const Json& object, const std::string& names) {
 
 TEST(Results, HaveAllNamesFromTheFirstMomentOn) {
   const Json results = Results{};
-  expect_keys(results,
-              "particles bonds family_max time_step_s stable_time_step_s steps simulated_s first_bond_break_s "
-              "rupture_onset_s pressure_at_onset_Pa blood_pressure_at_onset_Pa max_displacement_at_onset_m "
-              "max_displacement_m max_damage rupture_length_m opening_area_m2 energy_drift network coupling "
-              "cascade ensemble");
+  expect_keys(
+      results,
+      "particles bonds family_max time_step_s stable_time_step_s steps simulated_s first_bond_break_s "
+      "rupture_onset_s pressure_at_onset_Pa blood_pressure_at_onset_Pa max_displacement_at_onset_m "
+      "max_displacement_m max_damage rupture_length_m opening_area_m2 energy_drift network coupling "
+      "cascade ensemble");
   expect_keys(results["network"],
               "vessels junctions inflow_m3_s max_imbalance volume_m3 surface_m2 highest_reynolds "
               "highest_pressure_Pa lowest_pressure_Pa solver iterations queries screening");

@@ -35,7 +35,8 @@ std::vector<std::string> words(const std::string& text) {
 TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
   const test::TemporaryDirectory directory;
   RunRecord record(directory / "run.json",
-                   {.version = "0.1.0", .commit = "abc", .input = {{"vessel", {{"length", 1.0}}}}}, nothing, nothing, world);
+                   {.version = "0.1.0", .commit = "abc", .input = {{"vessel", {{"length", 1.0}}}}}, nothing,
+                   nothing, world);
   const Json json = Json::parse(test::text_of(directory / "run.json"));
   EXPECT_EQ(keys_of(json),
             words("version commit command started file checkpoint first_step input warnings status "
@@ -52,7 +53,8 @@ TEST(RunRecord, TellsHowTheRunEnded) {
   const test::TemporaryDirectory directory;
   RunRecord record(
       directory / "run.json",
-      {.command = {"rhexis", "run", "a.toml"}, .checkpoint = "step_000150.h5", .first_step = 150}, nothing, nothing, world);
+      {.command = {"rhexis", "run", "a.toml"}, .checkpoint = "step_000150.h5", .first_step = 150}, nothing,
+      nothing, world);
   record.warn("time.end is not a whole number of steps");
   record.complete({{"particles", 54800},
                    {"energy_drift", std::nan("")},
