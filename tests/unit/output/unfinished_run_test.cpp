@@ -18,7 +18,7 @@ TEST(UnfinishedRun, IsAtWorkAsLongAsItsFolderIsLockedAndThenDead) {
   EXPECT_FALSE(output::unfinished_run(directory.path()));
   std::optional<output::ResultsFolder> held;
   held.emplace(output::FolderPlan{.directory = directory.path()}, world);
-  { const output::RunRecord record(directory / "run.json", {}, world); }
+  { const output::RunRecord record(directory / "run.json", {}, nullptr, nullptr, world); }
   ASSERT_TRUE(output::unfinished_run(directory.path()));
   EXPECT_EQ(output::unfinished_run(directory.path())->state, State::at_work);
   world.barrier();
