@@ -88,8 +88,7 @@ void settle_time_step(Configuration& c) {
   const peridynamics::Lattice lattice = peridynamics::make_lattice(c.vessel);
   const peridynamics::PressureLayer layer =
       peridynamics::make_pressure_layer(c.vessel, lattice);  // throws where no particle would be loaded
-  const bool thinned = std::ranges::any_of(c.vessel.spots.thickness, [](double share) { return share < 1; });
-  if (thinned && peridynamics::ThinSpots(c.vessel, lattice, layer).absent() == 0)
+  if (c.vessel.spots.thin_the_wall() && peridynamics::ThinSpots(c.vessel, lattice, layer).absent() == 0)
     c.warnings.push_back(
         "spot.thickness has no effect: a wall is thinned by whole particles, and none lies "
         "outside of what is left; take a smaller discretisation.spacing");

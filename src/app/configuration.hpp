@@ -32,7 +32,7 @@ struct Aftermath {
 struct Configuration {
   std::string file;
   std::string title;
-  std::string model;  ///< "vessel" | "network" | "coupled" | "ensemble"
+  std::string model = "vessel";  ///< "vessel" | "network" | "coupled" | "ensemble"
   peridynamics::Parameters vessel;
   network::Parameters network;
   hemodynamics::Parameters hemodynamics;

@@ -14,17 +14,16 @@ void append(ParameterList& all, const ParameterList& part) {
 }
 
 ParameterList declare_scene(Configuration& c) {
-  return {{"scene.title", &c.title, "", "\"\"", "What the run shows; stored with the results.", ""},
-          {"scene.model",
-           &c.model,
-           "",
-           "\"vessel\"",
+  return {
+      {.key = "scene.title", .target = &c.title, .meaning = "What the run shows; stored with the results."},
+      {.key = "scene.model",
+       .target = &c.model,
+       .meaning =
            "What is simulated: the rupture of one vessel's wall; the flow in a network of vessels; both: the "
            "rupture of a vessel of a network; or how probably a vessel ruptures, from many walls "
            "whose properties scatter.",
-           "Sec. 3.3",
-           {},
-           {"vessel", "network", "coupled", "ensemble"}}};
+       .source = "Sec. 3.3",
+       .choices = {"vessel", "network", "coupled", "ensemble"}}};
 }
 
 ParameterList declare_vessel(Configuration& c) {

@@ -41,8 +41,8 @@ void VesselRun::print_header() {
                                         100 * scatter.critical_stretch, 100 * scatter.stiffness, scatter.law,
                                         quantity(*scatter.correlation_length, "m"), scatter.seed));
   }
-  if (v.spots.size() > 0) {
-    session_.console().item("spots", fmt::format("{}, which leave out {} particles", v.spots.size(),
+  if (!v.spots.list.empty()) {
+    session_.console().item("spots", fmt::format("{}, which leave out {} particles", v.spots.list.size(),
                                                  grouped(lattice_.particles() - *results_.particles)));
   }
   session_.console().item("bonds",

@@ -13,12 +13,12 @@
 namespace rhexis::hemodynamics {
 
 struct Parameters {
-  std::string viscosity_law;  ///< "constant" | "in_vitro" | "in_vivo"
+  std::string viscosity_law = "in_vivo";  ///< "constant" | "in_vitro" | "in_vivo"
   Viscosity viscosity;
-  double density = 0;  ///< kg/m3
+  double density = 1060;  ///< kg/m3
   bool phase_separation = false;
-  double phase_tolerance = 0;
-  std::int64_t phase_iterations = 0;
+  double phase_tolerance = 1e-8;
+  std::int64_t phase_iterations = 200;
   std::optional<double> inlet_pressure, outlet_pressure;  ///< Pa
   std::optional<double> inlet_flow;                       ///< m3/s
   std::vector<double> acceleration;                       ///< m/s2, none or three components

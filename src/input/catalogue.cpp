@@ -26,11 +26,14 @@ std::string without_table(std::string_view key) {
   return std::string(key.substr(0, open)) + std::string(key.substr(close + 1));
 }
 
+bool is_repeated(const Parameter& parameter) {
+  return std::holds_alternative<ListTarget>(parameter.target);
+}
+
 Parameter in_table(const Parameter& repeated, std::size_t number, double* target) {
   Parameter parameter = repeated;
   parameter.key = fmt::format("{}[{}].{}", section_of(repeated.key), number, name_of(repeated.key));
   parameter.target = target;
-  parameter.repeated = false;
   return parameter;
 }
 
@@ -52,7 +55,7 @@ void check_section(const ParameterList& parameters, std::string_view section) {
 
 bool is_repeated(const ParameterList& parameters, std::string_view section) {
   return std::ranges::any_of(parameters, [&](const Parameter& parameter) {
-    return parameter.repeated && section_of(parameter.key) == section;
+    return is_repeated(parameter) && section_of(parameter.key) == section;
   });
 }
 

@@ -19,6 +19,9 @@ std::string name_of(std::string_view key);
 /// "spot.radius" of "spot[2].radius", the second table's of a section that is repeated; others as they are.
 std::string without_table(std::string_view key);
 
+/// Whether the key is one of a section that may stand any number of times, [[section]].
+bool is_repeated(const Parameter& parameter);
+
 /// What a repeated parameter is in one of its tables, `number` from 1; its value goes to `target`.
 Parameter in_table(const Parameter& repeated, std::size_t number, double* target);
 
@@ -28,7 +31,7 @@ std::vector<std::string> sections_of(const ParameterList& parameters);
 /// @throws InputError where `section` is none, with the list of sections.
 void check_section(const ParameterList& parameters, std::string_view section);
 
-/// Whether `section` is one that may be repeated.
+/// Whether keys of `section` are repeated.
 bool is_repeated(const ParameterList& parameters, std::string_view section);
 
 const Parameter* find(const ParameterList& parameters, std::string_view key);

@@ -36,7 +36,8 @@ std::string example_whole(const Range& range) {
 }
 
 std::string example_text(const Parameter& parameter) {
-  return in_quotes(parameter.choices.empty() ? "text" : parameter.choices.front());
+  const std::vector<std::string> choices = choices_of(parameter);
+  return in_quotes(choices.empty() ? "text" : choices.front());
 }
 
 struct TypeName {
@@ -49,9 +50,11 @@ struct TypeName {
   std::string operator()(const std::int64_t*) const { return "whole number"; }
   std::string operator()(const bool*) const { return "true or false"; }
   std::string operator()(const std::string*) const { return "text"; }
+  std::string operator()(const EnumTarget&) const { return "text"; }
   std::string operator()(const std::vector<std::string>*) const { return "list of texts"; }
   std::string operator()(const std::vector<double>*) const { return "list of numbers" + in_brackets(unit); }
   std::string operator()(const std::vector<CurvePoint>*) const { return "curve" + in_brackets(unit); }
+  std::string operator()(const ListTarget&) const { return (*this)(static_cast<const double*>(nullptr)); }
   template <typename T>
   std::string operator()(const std::optional<T>*) const {
     return (*this)(static_cast<const T*>(nullptr));
@@ -65,6 +68,8 @@ struct Example {
   std::string operator()(const std::int64_t*) const { return example_whole(parameter.range); }
   std::string operator()(const bool*) const { return "true"; }
   std::string operator()(const std::string*) const { return example_text(parameter); }
+  std::string operator()(const EnumTarget&) const { return example_text(parameter); }
+  std::string operator()(const ListTarget&) const { return example_number(parameter); }
   std::string operator()(const std::vector<std::string>*) const {
     return fmt::format("[{}]", example_text(parameter));
   }
@@ -105,8 +110,13 @@ std::string describe_type(const Parameter& parameter) {
   return std::visit(TypeName{parameter.unit}, parameter.target);
 }
 
+std::vector<std::string> choices_of(const Parameter& parameter) {
+  const auto* target = std::get_if<EnumTarget>(&parameter.target);
+  return target && parameter.choices.empty() ? target->names() : parameter.choices;
+}
+
 std::string describe_allowed(const Parameter& parameter) {
-  std::string allowed = quoted_list(parameter.choices);
+  std::string allowed = quoted_list(choices_of(parameter));
   const bool curve = std::holds_alternative<std::vector<CurvePoint>*>(parameter.target);
   if (allowed.empty()) allowed = describe(parameter.range, curve ? "1" : parameter.unit);
   if (!takes_auto(parameter)) return allowed;

@@ -15,6 +15,9 @@ std::string describe(const Range& range, std::string_view unit);
 /// The type and the unit, shortly: "length [m]", "whole number", "list of texts", "curve [s, Pa]".
 std::string describe_type(const Parameter& parameter);
 
+/// The words that a text may be; empty where it may be any.
+std::vector<std::string> choices_of(const Parameter& parameter);
+
 /// The allowed values: a range, choices, "auto"; empty where anything of the type is.
 std::string describe_allowed(const Parameter& parameter);
 

@@ -7,6 +7,7 @@
 #include "input/catalogue.hpp"
 #include "input/description.hpp"
 #include "input/document.hpp"
+#include "input/values.hpp"
 #include "input/wording.hpp"
 
 namespace rhexis::input {
@@ -27,29 +28,23 @@ struct Columns {
   std::size_t type = 0;
 };
 
-/// What a table of a repeated section takes.
-Parameter as_one(const Parameter& parameter) {
-  return parameter.repeated ? in_table(parameter, 1, nullptr) : parameter;
-}
-
 Columns columns_of(const ParameterList& parameters) {
   Columns columns;
   for (const Parameter& parameter : parameters) {
     columns.name = std::max(columns.name, name_of(parameter.key).size());
-    columns.type = std::max(columns.type, describe_type(as_one(parameter)).size());
+    columns.type = std::max(columns.type, describe_type(parameter).size());
   }
   return columns;
 }
 
 std::string default_and_allowed(const Parameter& parameter) {
   const std::string allowed = describe_allowed(parameter);
-  return (parameter.default_text ? "default " + written(parse_value(*parameter.default_text))
-                                 : "required, e.g. " + example(parameter)) +
+  return (parameter.required ? "required, e.g. " + example(parameter)
+                             : "default " + written(default_value(parameter))) +
          (allowed.empty() ? "" : "; allowed: " + allowed);
 }
 
-std::string describe_key(const Parameter& declared, const Columns& columns) {
-  const Parameter parameter = as_one(declared);
+std::string describe_key(const Parameter& parameter, const Columns& columns) {
   const std::size_t second = margin + columns.name + 2;
   const std::size_t third = second + columns.type + 2;
   const std::string only =

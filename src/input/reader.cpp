@@ -57,18 +57,21 @@ void check_sections(const Document& document, const ParameterList& parameters) {
       parameter.key);
 }
 
+struct ToSiValue {
+  SiValue operator()(const EnumTarget& target) const { return target.name(); }
+  SiValue operator()(const ListTarget& target) const { return *target.prototype(); }
+  template <typename T>
+  SiValue operator()(const std::optional<T>* target) const {
+    return *target ? (*this)(&**target) : std::monostate{};
+  }
+  template <typename T>
+  SiValue operator()(const T* target) const {
+    return SiValue(std::in_place_type<T>, *target);
+  }
+};
+
 SiValue stored(const Parameter& parameter) {
-  return std::visit(
-      [](const auto* target) -> SiValue {
-        using T = std::remove_cvref_t<decltype(*target)>;
-        if constexpr (requires { target->has_value(); }) {
-          if (!target->has_value()) return std::monostate{};
-          return SiValue(std::in_place_type<typename T::value_type>, **target);
-        } else {
-          return SiValue(std::in_place_type<T>, *target);
-        }
-      },
-      parameter.target);
+  return std::visit(ToSiValue{}, parameter.target);
 }
 
 /// Stores the value and records it; a problem is thrown with `place` in front.
@@ -87,25 +90,31 @@ ResolvedValue resolve(const Parameter& parameter, const Value& value, std::strin
 }
 
 ResolvedValue resolve_default(const Document& document, const Parameter& parameter) {
-  if (!parameter.default_text) refuse_missing(document, parameter);
-  const Value value = parse_value(*parameter.default_text);
-  return resolve(parameter, value, "default",
-                 fmt::format("{}: {} (default {})", document.file, parameter.key, shortened(written(value))));
+  if (parameter.required) refuse_missing(document, parameter);
+  const Value value = default_value(parameter);
+  return {
+      .key = parameter.key,
+      .given = value,
+      .value = stored(parameter),
+      .unit = parameter.unit,
+      .origin = "default",
+      .place = fmt::format("{}: {} (default {})", document.file, parameter.key, shortened(written(value)))};
 }
 
 /// Parameters with one for each table of the document in place of each that is repeated.
 ParameterList with_tables(const Document& document, const ParameterList& declared) {
   ParameterList parameters;
   for (const Parameter& parameter : declared) {
-    if (!parameter.repeated) {
+    const auto* list = std::get_if<ListTarget>(&parameter.target);
+    if (list == nullptr) {
       parameters.push_back(parameter);
       continue;
     }
-    auto& values = *std::get<std::vector<double>*>(parameter.target);
     const std::string section = section_of(parameter.key);
-    values.resize(static_cast<std::size_t>(std::ranges::count(document.sections, section, &Section::name)));
-    for (std::size_t i = 0; i < values.size(); ++i)
-      parameters.push_back(in_table(parameter, i + 1, &values[i]));
+    const auto tables =
+        static_cast<std::size_t>(std::ranges::count(document.sections, section, &Section::name));
+    list->resize(tables);
+    for (std::size_t i = 0; i < tables; ++i) parameters.push_back(in_table(parameter, i + 1, list->at(i)));
   }
   return parameters;
 }

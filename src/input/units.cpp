@@ -7,6 +7,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -203,6 +204,17 @@ double to_si(std::string_view text, std::string_view unit) {
 
 std::string with_unit(double value, std::string_view unit) {
   return is_plain(unit) ? fmt::format("{:.10g}", value) : fmt::format("{:.10g} {}", value, unit);
+}
+
+std::string written_in(std::string_view shown_in, double value, std::string_view unit) {
+  const double size = to_si(fmt::format("1 {}", shown_in), unit);
+  std::string text;
+  for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+    const double rounded = std::stod(fmt::format("{:.{}e}", value / size, digits - 1));
+    text = fmt::format("{} {}", rounded, shown_in);
+    if (to_si(text, unit) == value) break;
+  }
+  return text;
 }
 
 std::string measured_by(std::string_view unit) {

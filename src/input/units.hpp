@@ -23,6 +23,10 @@ inline bool is_plain(std::string_view unit) {
 /// "0.0015 m", or "0.25" for a plain number.
 std::string with_unit(double value, std::string_view unit);
 
+/// `value`, in the SI unit `unit`, as a user would write it in the unit `shown_in`: "1.5 mm". As many digits
+/// as it takes for to_si to give exactly `value`.
+std::string written_in(std::string_view shown_in, double value, std::string_view unit);
+
 /// What a unit measures, with its article: "a pressure" for "Pa"; "a value in m5" where it has no name here.
 std::string measured_by(std::string_view unit);
 

@@ -13,6 +13,8 @@
 namespace rhexis::input {
 namespace {
 
+constexpr double exact_in_double = 9007199254740992.0;  ///< 2^53: whole numbers up to here
+
 std::string in_parentheses(const std::string& allowed) {
   return allowed.empty() ? "" : fmt::format(" (allowed: {})", allowed);
 }
@@ -63,10 +65,9 @@ double number(const Value& value, const Parameter& parameter, std::string_view u
 
 /// Whole numbers may be written as 1e6 as well, as long as a double holds them exactly.
 std::int64_t whole_number(const Value& value, const Parameter& parameter) {
-  constexpr double exact = 9007199254740992.0;  // 2^53
   const auto* whole = std::get_if<std::int64_t>(&value.content);
   const auto bare = bare_number(value);
-  if (!whole && !(bare && std::abs(*bare) <= exact && *bare == std::trunc(*bare)))
+  if (!whole && !(bare && std::abs(*bare) <= exact_in_double && *bare == std::trunc(*bare)))
     throw InputError(fmt::format("a whole number is expected, without quotes, for example {}{}",
                                  example(parameter), in_parentheses(describe_allowed(parameter))));
   check_range(*bare, parameter.range, "1");
@@ -75,7 +76,7 @@ std::int64_t whole_number(const Value& value, const Parameter& parameter) {
 
 std::string text_of(const Value& value, const Parameter& parameter) {
   const auto* text = std::get_if<std::string>(&value.content);
-  const auto& choices = parameter.choices;
+  const std::vector<std::string> choices = choices_of(parameter);
   if (!text) throw InputError("a text in quotes is expected" + in_parentheses(quoted_list(choices)));
   if (choices.empty() || std::ranges::find(choices, *text) != choices.end()) return *text;
   auto suggestion = closest(*text, choices);
@@ -126,6 +127,10 @@ struct Store {
     *target = *flag;
   }
   void operator()(std::string* target) const { *target = text_of(value, parameter); }
+  void operator()(const EnumTarget& target) const { target.set(text_of(value, parameter)); }
+  void operator()(const ListTarget&) const {
+    throw std::logic_error(parameter.key + " is read table by table");
+  }
   void operator()(std::vector<std::string>* target) const {
     *target = each<std::string>(list_of(value, parameter),
                                 [this](const Value& element) { return text_of(element, parameter); });
@@ -151,10 +156,54 @@ struct Store {
   }
 };
 
+/// The value that a target holds, as a user would write it.
+struct Written {
+  const Parameter& parameter;
+
+  Value number(double value, std::string_view unit) const {
+    if (!is_plain(unit))
+      return {written_in(parameter.default_in.empty() ? unit : parameter.default_in, value, unit)};
+    const bool whole = value == std::trunc(value) && std::abs(value) <= exact_in_double;
+    return whole ? Value{static_cast<std::int64_t>(value)} : Value{value};
+  }
+
+  Value operator()(const double* target) const { return number(*target, parameter.unit); }
+  Value operator()(const EnumTarget& target) const { return {target.name()}; }
+  Value operator()(const ListTarget& target) const { return number(*target.prototype(), parameter.unit); }
+  Value operator()(const std::vector<CurvePoint>* target) const {
+    const auto [first, second] = curve_units(parameter.unit);
+    List points;
+    for (const auto& [x, y] : *target) points.push_back({List{number(x, first), number(y, second)}});
+    return {points};
+  }
+  Value operator()(const std::vector<double>* target) const {
+    List numbers;
+    for (const double value : *target) numbers.push_back(number(value, parameter.unit));
+    return {numbers};
+  }
+  Value operator()(const std::vector<std::string>* target) const {
+    List texts;
+    for (const std::string& text : *target) texts.push_back({text});
+    return {texts};
+  }
+  template <typename T>
+  Value operator()(const std::optional<T>* target) const {
+    return *target ? (*this)(&**target) : Value{"auto"};
+  }
+  template <typename T>
+  Value operator()(const T* target) const {
+    return {*target};
+  }
+};
+
 }  // namespace
 
 void store(const Value& value, const Parameter& parameter) {
   std::visit(Store{value, parameter}, parameter.target);
+}
+
+Value default_value(const Parameter& parameter) {
+  return std::visit(Written{parameter}, parameter.target);
 }
 
 }  // namespace rhexis::input

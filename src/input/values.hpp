@@ -10,4 +10,8 @@ namespace rhexis::input {
 /// @throws InputError whose message is the problem alone, without place, key and value.
 void store(const Value& value, const Parameter& parameter);
 
+/// The default, which the target of `parameter` holds before anything is stored there, as a user would write
+/// it: "1.5 mm", 0.25, "auto" of an optional one that is empty.
+Value default_value(const Parameter& parameter);
+
 }  // namespace rhexis::input

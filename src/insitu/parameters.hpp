@@ -11,11 +11,11 @@
 namespace rhexis::insitu {
 
 struct Parameters {
-  bool enabled = false;
+  bool enabled = true;
   std::vector<std::string> scripts;
   std::optional<std::int64_t> every_steps;
-  std::string renderer;   ///< "auto" | "osmesa" | "egl" | "x11"
-  double time_limit = 0;  ///< s, of one script at one picture
+  std::string renderer = "auto";   ///< "auto" | "osmesa" | "egl" | "x11"
+  double time_limit = 600;  ///< s, of one script at one picture
   std::string live;       ///< "host:port"; empty: nobody is told
 };
 

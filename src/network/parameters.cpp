@@ -10,36 +10,46 @@ Wall wall_of(const std::string& rule, double ratio) {
 ParameterList declare(WallParameters& p) {
   const std::vector<std::string> rules{"ratio", "radius"};
   const char* rule =
-      "Wall thickness over lumen radius: constant (\"ratio\"), or falling with the radius as in "
-      "arteries (\"radius\": 0.12 in the aorta, 0.26 at 1.5 mm, 0.41 at 20 um). Of ";
+      "Wall thickness over lumen radius: constant (\"ratio\"), or falling with the radius as in arteries "
+      "(\"radius\": 0.12 in the aorta, 0.26 at 1.5 mm, 0.41 at 20 um). Of ";
   return {
-      {"wall.artery_rule",
-       &p.artery_rule,
-       "",
-       "\"ratio\"",
-       std::string(rule) + "arteries.",
-       "Boileau et al. 2015",
-       {},
-       rules},
-      only_with({"wall.artery_rule", {"\"ratio\""}},
-                {"wall.artery_ratio", &p.artery_ratio, "1", "0.3333333333333333",
-                 "Wall thickness over lumen radius of arteries, for the rule \"ratio\".", "Table 2",
-                 Range::positive()}),
-      {"wall.vein_rule",
-       &p.vein_rule,
-       "",
-       "\"ratio\"",
-       std::string(rule) + "veins.",
-       "Boileau et al. 2015",
-       {},
-       rules},
-      only_with({"wall.vein_rule", {"\"ratio\""}},
-                {"wall.vein_ratio", &p.vein_ratio, "1", "0.1", "The same of veins, for the rule \"ratio\".",
-                 "Burton 1954 (vena cava: 1.5 mm at 30 mm)", Range::positive()}),
-      {"wall.young_modulus", &p.young_modulus, "Pa", "\"3.5 MPa\"",
-       "Young's modulus of walls, for hoop strains.", "Table 2", Range::positive()},
-      {"wall.poisson_ratio", &p.poisson_ratio, "1", "0.25", "Poisson's ratio of walls.", "Eq. (4)",
-       Range::between(0, 0.5)},
+      {.key = "wall.artery_rule",
+       .target = &p.artery_rule,
+       .meaning = std::string(rule) + "arteries.",
+       .source = "Boileau et al. 2015",
+       .choices = rules},
+      {.key = "wall.artery_ratio",
+       .target = &p.artery_ratio,
+       .unit = "1",
+       .meaning = "Wall thickness over lumen radius of arteries, for the rule \"ratio\".",
+       .source = "Table 2",
+       .range = Range::positive(),
+       .only_with = {{"wall.artery_rule", {"\"ratio\""}}}},
+      {.key = "wall.vein_rule",
+       .target = &p.vein_rule,
+       .meaning = std::string(rule) + "veins.",
+       .source = "Boileau et al. 2015",
+       .choices = rules},
+      {.key = "wall.vein_ratio",
+       .target = &p.vein_ratio,
+       .unit = "1",
+       .meaning = "The same of veins, for the rule \"ratio\".",
+       .source = "Burton 1954 (vena cava: 1.5 mm at 30 mm)",
+       .range = Range::positive(),
+       .only_with = {{"wall.vein_rule", {"\"ratio\""}}}},
+      {.key = "wall.young_modulus",
+       .target = &p.young_modulus,
+       .unit = "Pa",
+       .default_in = "MPa",
+       .meaning = "Young's modulus of walls, for hoop strains.",
+       .source = "Table 2",
+       .range = Range::positive()},
+      {.key = "wall.poisson_ratio",
+       .target = &p.poisson_ratio,
+       .unit = "1",
+       .meaning = "Poisson's ratio of walls.",
+       .source = "Eq. (4)",
+       .range = Range::between(0, 0.5)},
   };
 }
 
@@ -49,74 +59,67 @@ ParameterList declare(Parameters& p) {
   const std::vector<rhexis::Condition> a_graph{{"network.source", {"\"file\""}},
                                                {"network.tier", {"\"explicit\"", "\"distributed\""}}};
   ParameterList all{
-      {"network.source",
-       &p.source,
-       "",
-       "\"tree\"",
-       "Where the vessels come from: \"tree\" makes the arterial tree and its venous mirror by the rules of "
-       "[tree], "
-       "\"file\" reads network.files.",
-       "Sec. 3.3",
-       {},
-       {"tree", "file"}},
-      {"network.files", &p.files, "", "[]",
-       "The user's own network: one VTP or JSON file, or two CSV files, junctions and vessels. Looked for "
-       "from the "
-       "working folder, then from the input file's folder.",
-       ""},
-      only_with(
-          {"network.source", {"\"file\""}},
-          {"network.file_length_unit", &p.file_length_unit, "", "\"m\"",
-           "Unit of coordinates, radii and lengths in a VTP file, which cannot tell, e.g. \"mm\".", ""}),
-      {"network.tier",
-       &p.tier,
-       "",
-       "\"auto\"",
-       "How the network is held: \"implicit\" (trees only: nothing is stored), \"explicit\" (all vessels in "
-       "memory), "
-       "\"distributed\" (over all ranks' memory); auto: implicit for a tree, explicit for files.",
-       "",
-       {},
-       {"auto", "implicit", "explicit", "distributed"}},
-      only_with_one_of(a_graph,
-                       {"network.solver",
-                        &p.solver,
-                        "",
-                        "\"auto\"",
-                        "For what is left of an explicit network when dead ends, series and parallels are "
-                        "eliminated: nothing "
-                        "may be "
-                        "left (elimination), direct (ldlt), or conjugate gradients with a preconditioner.",
-                        "",
-                        {},
-                        {"auto", "elimination", "ldlt", "approximate_cholesky", "jacobi", "amg"}}),
-      only_with_one_of(a_graph,
-                       {"network.imbalance", &p.imbalance, "1", "1e-10",
-                        "Stop when blood is conserved at the worst junction to this share of the inflow.", "",
-                        Range::between(1e-15, 1e-3)}),
-      only_with_one_of(a_graph, {"network.max_iterations", &p.max_iterations, "1", "20000",
-                                 "Of an iterative solver.", "", Range::at_least(1)}),
-      {"network.statistics", &p.statistics, "", "true",
-       "Sweep over all vessels of a tree for statistics and histograms by generation.", ""},
-      {"network.query", &p.query, "", "[]",
-       "Vessels to report in full: ids, or in a tree paths such as \"artery.0110\" (the root's first, "
-       "second, second "
-       "and first daughter) and \"vein.0110\"; in a file its names.",
-       ""},
-      {"network.shown_vessels", &p.shown_vessels, "1", "\"auto\"",
-       "The most vessels to store and draw, the widest first; a picture can tell no more apart. \"auto\": "
-       "20000 of a "
-       "tree, all of a file's.",
-       "", Range::between(1, 5e6)},
-      {"network.vtp", &p.vtp, "", "false",
-       "Store the vessels as network.vtp too (VTK PolyData, metres; not with the distributed tier).", ""},
-      only_with(
-          {"network.source", {"\"tree\""}},
-          {"network.shown_subtree", &p.shown_subtree, "", "\"artery.\"",
-           "Place in the tree from which on vessels are stored and drawn, e.g. the path of a vessel a few "
-           "generations "
-           "above the capillaries.",
-           ""}),
+      {.key = "network.source",
+       .target = &p.source,
+       .meaning = "Where the vessels come from: \"tree\" makes the arterial tree and its venous mirror by "
+                  "the rules of [tree], \"file\" reads network.files.",
+       .source = "Sec. 3.3",
+       .choices = {"tree", "file"}},
+      {.key = "network.files",
+       .target = &p.files,
+       .meaning = "The user's own network: one VTP or JSON file, or two CSV files, junctions and vessels. "
+                  "Looked for from the working folder, then from the input file's folder."},
+      {.key = "network.file_length_unit",
+       .target = &p.file_length_unit,
+       .meaning = "Unit of coordinates, radii and lengths in a VTP file, which cannot tell, e.g. \"mm\".",
+       .only_with = {{"network.source", {"\"file\""}}}},
+      {.key = "network.tier",
+       .target = &p.tier,
+       .meaning = "How the network is held: \"implicit\" (trees only: nothing is stored), \"explicit\" (all "
+                  "vessels in memory), \"distributed\" (over all ranks' memory); auto: implicit for a tree, "
+                  "explicit for files.",
+       .choices = {"auto", "implicit", "explicit", "distributed"}},
+      {.key = "network.solver",
+       .target = &p.solver,
+       .meaning =
+           "For what is left of an explicit network when dead ends, series and parallels are eliminated: "
+           "nothing may be left (elimination), direct (ldlt), or conjugate gradients with a preconditioner.",
+       .choices = {"auto", "elimination", "ldlt", "approximate_cholesky", "jacobi", "amg"},
+       .only_with = a_graph},
+      {.key = "network.imbalance",
+       .target = &p.imbalance,
+       .unit = "1",
+       .meaning = "Stop when blood is conserved at the worst junction to this share of the inflow.",
+       .range = Range::between(1e-15, 1e-3),
+       .only_with = a_graph},
+      {.key = "network.max_iterations",
+       .target = &p.max_iterations,
+       .unit = "1",
+       .meaning = "Of an iterative solver.",
+       .range = Range::at_least(1),
+       .only_with = a_graph},
+      {.key = "network.statistics",
+       .target = &p.statistics,
+       .meaning = "Sweep over all vessels of a tree for statistics and histograms by generation."},
+      {.key = "network.query",
+       .target = &p.query,
+       .meaning = "Vessels to report in full: ids, or in a tree paths such as \"artery.0110\" (the root's "
+                  "first, second, second and first daughter) and \"vein.0110\"; in a file its names."},
+      {.key = "network.shown_vessels",
+       .target = &p.shown_vessels,
+       .unit = "1",
+       .meaning = "The most vessels to store and draw, the widest first; a picture can tell no more apart. "
+                  "\"auto\": 20000 of a tree, all of a file's.",
+       .range = Range::between(1, 5e6)},
+      {.key = "network.vtp",
+       .target = &p.vtp,
+       .meaning =
+           "Store the vessels as network.vtp too (VTK PolyData, metres; not with the distributed tier)."},
+      {.key = "network.shown_subtree",
+       .target = &p.shown_subtree,
+       .meaning = "Place in the tree from which on vessels are stored and drawn, e.g. the path of a vessel a "
+                  "few generations above the capillaries.",
+       .only_with = {{"network.source", {"\"tree\""}}}},
   };
   for (const ParameterList& part : {declare(p.tree), declare(p.wall), declare(p.weakness)})
     all.insert(all.end(), part.begin(), part.end());

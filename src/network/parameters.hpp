@@ -14,24 +14,24 @@
 namespace rhexis::network {
 
 struct WallParameters {
-  std::string artery_rule, vein_rule;
-  double artery_ratio = 0, vein_ratio = 0;
-  double young_modulus = 0;  ///< Pa
-  double poisson_ratio = 0;
+  std::string artery_rule = "ratio", vein_rule = "ratio";
+  double artery_ratio = 1.0 / 3, vein_ratio = 0.1;
+  double young_modulus = 3.5e6;  ///< Pa
+  double poisson_ratio = 0.25;
 };
 
 struct Parameters {
-  std::string source;  ///< "tree" | "file"
+  std::string source = "tree";  ///< "tree" | "file"
   std::vector<std::string> files;
-  std::string file_length_unit;
-  std::string tier;  ///< "auto" | "implicit" | "explicit" | "distributed"
-  std::string solver;
-  double imbalance = 0;
-  std::int64_t max_iterations = 0;
+  std::string file_length_unit = "m";
+  std::string tier = "auto";  ///< "auto" | "implicit" | "explicit" | "distributed"
+  std::string solver = "auto";
+  double imbalance = 1e-10;
+  std::int64_t max_iterations = 20000;
   bool statistics = true;
   std::vector<std::string> query;
   std::optional<std::int64_t> shown_vessels;
-  std::string shown_subtree;
+  std::string shown_subtree = "artery.";
   bool vtp = false;
   TreeParameters tree;
   WallParameters wall;

@@ -71,16 +71,16 @@ double exponent_between(double root, double terminal, int generations);
 /// The input keys of [tree], as read.
 struct TreeParameters {
   std::optional<std::int64_t> generations;
-  double root_radius = 0;
+  double root_radius = 0.0125;
   std::optional<double> exponent, terminal_radius, least_asymmetry;
   double asymmetry = 1;
-  std::int64_t seed = 0;
-  double length_ratio = 0;
+  std::int64_t seed = 1;
+  double length_ratio = 50;
   std::vector<double> length_ratio_by_generation;
   std::vector<CurvePoint> length_by_radius;
   double length_spread = 0;
   double vein_radius_ratio = 1;
-  std::string layout;
+  std::string layout = "spatial";
 };
 
 ParameterList declare(TreeParameters& p);

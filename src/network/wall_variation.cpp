@@ -10,27 +10,43 @@ namespace rhexis::network {
 ParameterList declare(WeaknessParameters& p) {
   const std::vector<rhexis::Condition> some_are_weak{{"weakness.vessels", {}}, {"weakness.subtrees", {}}};
   return {
-      {"weakness.vessels", &p.vessels, "", "[]",
-       "Vessels with a weak wall: ids, or in a tree paths such as \"artery.0110\"; in a file its names.", ""},
-      {"weakness.subtrees", &p.subtrees, "", "[]",
-       "Regions with weak walls: the path of a vessel of a tree, which is weak with all of its kind below "
-       "it.",
-       ""},
-      only_with_one_of(some_are_weak,
-                       {"weakness.strength", &p.strength, "1", "0.5",
-                        "Critical stretch of weak walls over that of the others.", "", Range::positive()}),
-      only_with_one_of(some_are_weak,
-                       {"weakness.thickness", &p.thickness, "1", "1",
-                        "Thickness of weak walls over that of the others.", "", Range::positive()}),
-      {"weakness.strength_spread", &p.strength_spread, "1", "0",
-       "Scatter of critical stretch from vessel to vessel: coefficient of variation of a lognormal "
-       "factor of mean 1.",
-       "", Range::between(0, 1)},
-      {"weakness.thickness_spread", &p.thickness_spread, "1", "0", "The same of wall thickness.", "",
-       Range::between(0, 1)},
-      only_with_one_of(
-          {{"weakness.strength_spread", {}}, {"weakness.thickness_spread", {}}},
-          {"weakness.seed", &p.seed, "1", "0", "Which walls are drawn.", "", Range::at_least(0)}),
+      {.key = "weakness.vessels",
+       .target = &p.vessels,
+       .meaning =
+           "Vessels with a weak wall: ids, or in a tree paths such as \"artery.0110\"; in a file its names."},
+      {.key = "weakness.subtrees",
+       .target = &p.subtrees,
+       .meaning = "Regions with weak walls: the path of a vessel of a tree, which is weak with all of its "
+                  "kind below it."},
+      {.key = "weakness.strength",
+       .target = &p.strength,
+       .unit = "1",
+       .meaning = "Critical stretch of weak walls over that of the others.",
+       .range = Range::positive(),
+       .only_with = some_are_weak},
+      {.key = "weakness.thickness",
+       .target = &p.thickness,
+       .unit = "1",
+       .meaning = "Thickness of weak walls over that of the others.",
+       .range = Range::positive(),
+       .only_with = some_are_weak},
+      {.key = "weakness.strength_spread",
+       .target = &p.strength_spread,
+       .unit = "1",
+       .meaning = "Scatter of critical stretch from vessel to vessel: coefficient of variation of a "
+                  "lognormal factor of mean 1.",
+       .range = Range::between(0, 1)},
+      {.key = "weakness.thickness_spread",
+       .target = &p.thickness_spread,
+       .unit = "1",
+       .meaning = "The same of wall thickness.",
+       .range = Range::between(0, 1)},
+      {.key = "weakness.seed",
+       .target = &p.seed,
+       .unit = "1",
+       .meaning = "Which walls are drawn.",
+       .range = Range::at_least(0),
+       .only_with = {{"weakness.strength_spread", {}}, {"weakness.thickness_spread", {}}}},
   };
 }
 

@@ -20,7 +20,7 @@ namespace rhexis::network {
 /// The input keys of [weakness].
 struct WeaknessParameters {
   std::vector<std::string> vessels, subtrees;
-  double strength = 1, thickness = 1;
+  double strength = 0.5, thickness = 1;
   double strength_spread = 0, thickness_spread = 0;
   std::int64_t seed = 0;
 };

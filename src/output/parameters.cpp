@@ -9,55 +9,56 @@
 namespace rhexis::output {
 
 ParameterList declare(Parameters& p, std::vector<std::string> fields) {
-  std::string all;
-  for (const std::string& field : fields) all += (all.empty() ? "\"" : ", \"") + field + "\"";
+  p.fields = fields;
   return {
-      {"output.every_steps", &p.every_steps, "1", "\"auto\"",
-       "Steps between outputs (history, particles, and pictures unless insitu.every_steps says otherwise); "
-       "\"auto\" "
-       "gives 90 outputs.",
-       "", Range::at_least(1)},
-      {"output.every_time", &p.every_time, "s", "\"auto\"",
-       "Simulated time between outputs, instead of every_steps.", "", Range::positive()},
-      {"output.fields",
-       &p.fields,
-       "",
-       "[" + all + "]",
-       "Fields stored of every particle beside its position; an empty list stores no particles.",
-       "Sec. 3.4",
-       {},
-       fields},
-      {"output.precision",
-       &p.precision,
-       "",
-       "\"single\"",
-       "Of the values stored of particles.",
-       "",
-       {},
-       {"single", "double"}},
+      {.key = "output.every_steps",
+       .target = &p.every_steps,
+       .unit = "1",
+       .meaning = "Steps between outputs (history, particles, and pictures unless insitu.every_steps says "
+                  "otherwise); \"auto\" gives 90 outputs.",
+       .range = Range::at_least(1)},
+      {.key = "output.every_time",
+       .target = &p.every_time,
+       .unit = "s",
+       .meaning = "Simulated time between outputs, instead of every_steps.",
+       .range = Range::positive()},
+      {.key = "output.fields",
+       .target = &p.fields,
+       .meaning = "Fields stored of every particle beside its position; an empty list stores no particles.",
+       .source = "Sec. 3.4",
+       .choices = fields},
+      {.key = "output.precision",
+       .target = &p.precision,
+       .meaning = "Of the values stored of particles.",
+       .choices = {"single", "double"}},
       declare_format(p),
-      {"output.checkpoint_every", &p.checkpoint_every, "1", "0",
-       "Steps between checkpoints for --restart; 0: only when a run is interrupted. A cascade leaves one "
-       "after each event, too.",
-       "", Range::not_negative()},
-      {"output.movie", &p.movie, "", "true", "Make movie.mp4 of the pictures at the end (needs ffmpeg).", ""},
-      only_with({"output.movie", {"true"}}, {"output.frames_per_second", &p.frames_per_second, "1", "12",
-                                             "Of the movie.", "", Range::between(1, 120)}),
+      {.key = "output.checkpoint_every",
+       .target = &p.checkpoint_every,
+       .unit = "1",
+       .meaning = "Steps between checkpoints for --restart; 0: only when a run is interrupted. A cascade "
+                  "leaves one after each event, too.",
+       .range = Range::not_negative()},
+      {.key = "output.movie",
+       .target = &p.movie,
+       .meaning = "Make movie.mp4 of the pictures at the end (needs ffmpeg)."},
+      {.key = "output.frames_per_second",
+       .target = &p.frames_per_second,
+       .unit = "1",
+       .meaning = "Of the movie.",
+       .range = Range::between(1, 120),
+       .only_with = {{"output.movie", {"true"}}}},
   };
 }
 
 Parameter declare_format(Parameters& p) {
   return {
-      "output.format",
-      &p.format,
-      "",
-      "\"xdmf\"",
-      "How particles and networks are stored: as particles.h5 and network.h5 with .xdmf files beside them, "
-      "which ParaView reads in any version; as particles.vtkhdf and network.vtkhdf, poly data over time, "
-      "which it reads from version 5.12 on (Debian 13 has 5.13, Debian 12 has 5.11); or as both.",
-      "",
-      {},
-      {"xdmf", "vtkhdf", "both"}};
+      .key = "output.format",
+      .target = &p.format,
+      .meaning =
+          "How particles and networks are stored: as particles.h5 and network.h5 with .xdmf files beside "
+          "them, which ParaView reads in any version; as particles.vtkhdf and network.vtkhdf, poly data over "
+          "time, which it reads from version 5.12 on (Debian 13 has 5.13, Debian 12 has 5.11); or as both.",
+      .choices = {"xdmf", "vtkhdf", "both"}};
 }
 
 Precision precision_of(const Parameters& p) {

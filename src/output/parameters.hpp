@@ -15,11 +15,11 @@ struct Parameters {
   std::optional<std::int64_t> every_steps;
   std::optional<double> every_time;  ///< s
   std::vector<std::string> fields;
-  std::string precision;  ///< "single" | "double"
-  std::string format;     ///< "xdmf" | "vtkhdf" | "both"
+  std::string precision = "single";  ///< "single" | "double"
+  std::string format = "xdmf";     ///< "xdmf" | "vtkhdf" | "both"
   std::int64_t checkpoint_every = 0;
   bool movie = true;
-  double frames_per_second = 0;
+  double frames_per_second = 12;
 };
 
 /// The keys, bound to `p`; `fields` are the names that output.fields may list.

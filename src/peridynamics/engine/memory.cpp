@@ -147,8 +147,7 @@ BodyMemory body_memory(const Parameters& p, const WallSize& size, double rows, b
   bytes += size.columns * blocks * (real8 + 1);                              // fracture energy
   bytes += size.columns * ranks * 100;                                       // section, layer, slots
   if (!Heterogeneity(p).uniform()) bytes += padded * 2 * real;
-  if (std::ranges::any_of(p.spots.thickness, [](double share) { return share < 1; }))
-    bytes += padded + particles * real8;
+  if (p.spots.thin_the_wall()) bytes += padded + particles * real8;
   if constexpr (Law::state_based) bytes += padded * real + particles * real8 + size.columns * blocks * 8;
   return {bytes, particles * 8 * real8};
 }

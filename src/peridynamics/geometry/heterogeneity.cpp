@@ -12,9 +12,9 @@ namespace rhexis::peridynamics {
 
 Heterogeneity::Heterogeneity(const Parameters& p)
     : mid_radius_(0.5 * (p.inner_radius + p.outer_radius)), spots_(p.spots) {
-  const auto is_one = [](double factor) { return factor == 1; };
-  uniform_ = p.scatter.none() && std::ranges::all_of(spots_.stiffness, is_one) &&
-             std::ranges::all_of(spots_.critical_stretch, is_one);
+  uniform_ = p.scatter.none() && std::ranges::all_of(spots_.list, [](const Spot& spot) {
+               return spot.stiffness == 1 && spot.critical_stretch == 1;
+             });
   if (p.scatter.none()) return;
   field_.emplace(p.scatter.seed, *p.scatter.correlation_length);
   critical_stretch_ = marginal(p.scatter.law, p.scatter.critical_stretch);
@@ -35,11 +35,11 @@ std::vector<LocalFactors> Heterogeneity::along(double x, double y, std::span<con
       factors[i] = {critical_stretch_(drawn[i][0]), stiffness_(drawn[i][1])};
   }
   const double angle = std::atan2(y, x);
-  for (std::size_t spot = 0; spot < spots_.size(); ++spot) {
+  for (const Spot& spot : spots_.list) {
     for (std::size_t i = 0; i < z.size(); ++i) {
       const double near = spots_.nearness(spot, mid_radius_, angle, z[i]);
-      factors[i].critical_stretch *= 1 + (spots_.critical_stretch[spot] - 1) * near;
-      factors[i].stiffness *= 1 + (spots_.stiffness[spot] - 1) * near;
+      factors[i].critical_stretch *= 1 + (spot.critical_stretch - 1) * near;
+      factors[i].stiffness *= 1 + (spot.stiffness - 1) * near;
     }
   }
   return factors;

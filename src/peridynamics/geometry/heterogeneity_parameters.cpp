@@ -1,5 +1,6 @@
 #include "peridynamics/geometry/heterogeneity_parameters.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -12,100 +13,84 @@ ParameterList declare(Scatter& s) {
   const std::vector<Condition> something_scatters{{"scatter.critical_stretch", {}},
                                                   {"scatter.stiffness", {}}};
   return {
-      only_with_one_of(something_scatters,
-                       {"scatter.law",
-                        &s.law,
-                        "",
-                        "\"lognormal\"",
-                        "Distribution, over the wall, of the factors of mean 1 by which properties scatter.",
-                        "",
-                        {},
-                        {"lognormal", "weibull"}}),
-      {"scatter.critical_stretch", &s.critical_stretch, "1", "0",
-       "Scatter of the critical stretch: coefficient of variation of its factor; 0 for none.", "",
-       Range::between(0, 1)},
-      {"scatter.stiffness", &s.stiffness, "1", "0",
-       "The same of the stiffness, whose factor is independent of the critical stretch's.", "",
-       Range::between(0, 1)},
-      only_with_one_of(something_scatters,
-                       {"scatter.correlation_length", &s.correlation_length, "m", "\"auto\"",
-                        "Distance at which the correlation of a factor (before it is made lognormal or "
-                        "Weibull) has fallen "
-                        "to 1/e; \"auto\" is half of the wall's thickness.",
-                        "", Range::positive()}),
-      only_with_one_of(something_scatters, {"scatter.seed", &s.seed, "1", "1",
-                                            "Which wall is drawn: a function of the seed and the place "
-                                            "alone, whatever the resolution. Wall i of "
-                                            "an ensemble takes seed + i.",
-                                            "", Range::at_least(0)}),
+      {.key = "scatter.law",
+       .target = &s.law,
+       .meaning = "Distribution, over the wall, of the factors of mean 1 by which properties scatter.",
+       .choices = {"lognormal", "weibull"},
+       .only_with = something_scatters},
+      {.key = "scatter.critical_stretch",
+       .target = &s.critical_stretch,
+       .unit = "1",
+       .meaning = "Scatter of the critical stretch: coefficient of variation of its factor; 0 for none.",
+       .range = Range::between(0, 1)},
+      {.key = "scatter.stiffness",
+       .target = &s.stiffness,
+       .unit = "1",
+       .meaning = "The same of the stiffness, whose factor is independent of the critical stretch's.",
+       .range = Range::between(0, 1)},
+      {.key = "scatter.correlation_length",
+       .target = &s.correlation_length,
+       .unit = "m",
+       .meaning = "Distance at which the correlation of a factor (before it is made lognormal or Weibull) "
+                  "has fallen to 1/e; \"auto\" is half of the wall's thickness.",
+       .range = Range::positive(),
+       .only_with = something_scatters},
+      {.key = "scatter.seed",
+       .target = &s.seed,
+       .unit = "1",
+       .meaning = "Which wall is drawn: a function of the seed and the place alone, whatever the resolution. "
+                  "Wall i of an ensemble takes seed + i.",
+       .range = Range::at_least(0),
+       .only_with = something_scatters},
   };
 }
 
-double Spots::nearness(std::size_t i, double mid_radius, double around, double z) const {
-  const double along_circle = mid_radius * std::remainder(around - angle[i], 2 * std::numbers::pi);
-  const double along_axis = std::remainder(z - position[i], period);
-  const double distance = std::hypot(along_axis, along_circle) / radius[i];
+bool Spots::thin_the_wall() const {
+  return std::ranges::any_of(list, [](const Spot& spot) { return spot.thickness < 1; });
+}
+
+double Spots::nearness(const Spot& spot, double mid_radius, double angle, double z) const {
+  const double along_circle = mid_radius * std::remainder(angle - spot.angle, 2 * std::numbers::pi);
+  const double along_axis = std::remainder(z - spot.position, period);
+  const double distance = std::hypot(along_axis, along_circle) / spot.radius;
   return distance < 1 ? 0.5 * (1 + std::cos(std::numbers::pi * distance)) : 0.0;
 }
 
 ParameterList declare(Spots& s) {
   return {
-      {"spot.position",
-       &s.position,
-       "m",
-       {},
-       "Centre of the spot along the axis, from the vessel's end.",
-       "",
-       Range::not_negative(),
-       {},
-       true},
-      {"spot.angle",
-       &s.angle,
-       "rad",
-       "\"0 deg\"",
-       "Centre of the spot around the axis, from the x axis towards the y axis.",
-       "",
-       Range::any(),
-       {},
-       true},
-      {"spot.radius",
-       &s.radius,
-       "m",
-       {},
-       "Radius of the spot, along the wall at its mid-radius; factors go over to 1 from its centre to its "
-       "edge "
-       "as 1 + (factor - 1) (1 + cos(pi d / radius)) / 2.",
-       "",
-       Range::positive(),
-       {},
-       true},
-      {"spot.critical_stretch",
-       &s.critical_stretch,
-       "1",
-       "1",
-       "Critical stretch at the centre over that of the wall around it.",
-       "",
-       Range::positive(),
-       {},
-       true},
-      {"spot.stiffness",
-       &s.stiffness,
-       "1",
-       "1",
-       "Stiffness at the centre over that of the wall around it.",
-       "",
-       Range::positive(),
-       {},
-       true},
-      {"spot.thickness",
-       &s.thickness,
-       "1",
-       "1",
-       "Thickness at the centre over that of the wall around it: the outer part is missing there.",
-       "",
-       {.lower = 0, .upper = 1, .lower_open = true},
-       {},
-       true},
+      {.key = "spot.position",
+       .target = ListTarget(&s.list, &Spot::position),
+       .unit = "m",
+       .meaning = "Centre of the spot along the axis, from the vessel's end.",
+       .range = Range::not_negative(),
+       .required = true},
+      {.key = "spot.angle",
+       .target = ListTarget(&s.list, &Spot::angle),
+       .unit = "rad",
+       .default_in = "deg",
+       .meaning = "Centre of the spot around the axis, from the x axis towards the y axis."},
+      {.key = "spot.radius",
+       .target = ListTarget(&s.list, &Spot::radius),
+       .unit = "m",
+       .meaning = "Radius of the spot, along the wall at its mid-radius; factors go over to 1 from its "
+                  "centre to its edge as 1 + (factor - 1) (1 + cos(pi d / radius)) / 2.",
+       .range = Range::positive(),
+       .required = true},
+      {.key = "spot.critical_stretch",
+       .target = ListTarget(&s.list, &Spot::critical_stretch),
+       .unit = "1",
+       .meaning = "Critical stretch at the centre over that of the wall around it.",
+       .range = Range::positive()},
+      {.key = "spot.stiffness",
+       .target = ListTarget(&s.list, &Spot::stiffness),
+       .unit = "1",
+       .meaning = "Stiffness at the centre over that of the wall around it.",
+       .range = Range::positive()},
+      {.key = "spot.thickness",
+       .target = ListTarget(&s.list, &Spot::thickness),
+       .unit = "1",
+       .meaning = "Thickness at the centre over that of the wall around it: the outer part is missing there.",
+       .range = {.lower = 0, .upper = 1, .lower_open = true}},
   };
 }
 
@@ -126,19 +111,20 @@ std::vector<std::string> resolve(Scatter& s, double wall, double spacing) {
 
 std::vector<std::string> check(const Spots& s, double length, double wall, double spacing) {
   std::vector<std::string> warnings;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const std::string spot = "spot[" + std::to_string(i + 1) + "]";
-    if (s.position[i] > length)
-      throw InputError("beyond the vessel's end, " + quantity(length, "m"), spot + ".position");
-    if (s.thickness[i] * wall < spacing * (1 - 1e-9)) {
-      throw InputError("leaves " + quantity(s.thickness[i] * wall, "m") + " of the wall; one spacing, " +
+  for (std::size_t i = 0; i < s.list.size(); ++i) {
+    const Spot& spot = s.list[i];
+    const std::string section = "spot[" + std::to_string(i + 1) + "]";
+    if (spot.position > length)
+      throw InputError("beyond the vessel's end, " + quantity(length, "m"), section + ".position");
+    if (spot.thickness * wall < spacing * (1 - 1e-9)) {
+      throw InputError("leaves " + quantity(spot.thickness * wall, "m") + " of the wall; one spacing, " +
                            quantity(spacing, "m") + ", is the least",
-                       spot + ".thickness");
+                       section + ".thickness");
     }
-    if (s.critical_stretch[i] == 1 && s.stiffness[i] == 1 && s.thickness[i] == 1)
-      warnings.push_back(spot + " changes nothing: give its critical_stretch, stiffness or thickness");
-    if (s.radius[i] < 2 * spacing) {
-      warnings.push_back(spot + " has a radius of " + quantity(s.radius[i], "m") +
+    if (spot.critical_stretch == 1 && spot.stiffness == 1 && spot.thickness == 1)
+      warnings.push_back(section + " changes nothing: give its critical_stretch, stiffness or thickness");
+    if (spot.radius < 2 * spacing) {
+      warnings.push_back(section + " has a radius of " + quantity(spot.radius, "m") +
                          "; below 2 spacings it is not resolved");
     }
   }

@@ -22,21 +22,26 @@ struct Scatter {
   bool none() const { return critical_stretch == 0 && stiffness == 0; }
 };
 
-/// Sections [[spot]]: places where the wall is different; one element of each vector a spot.
+/// A section [[spot]]: a place where the wall is different.
+struct Spot {
+  double position = 0;          ///< m, of the centre along the axis, from the end z = 0
+  double angle = 0;             ///< rad, of the centre around the axis, from x towards y
+  double radius = 0;            ///< m, along the axis and along the circle at mid-wall
+  double critical_stretch = 1;  ///< factor at the centre
+  double stiffness = 1;         ///< factor at the centre
+  double thickness = 1;         ///< share of the wall that is left at the centre, from the lumen on
+};
+
 struct Spots {
-  std::vector<double> position;          ///< m, of the centre along the axis, from the end z = 0
-  std::vector<double> angle;             ///< rad, of the centre around the axis, from x towards y
-  std::vector<double> radius;            ///< m, along the axis and along the circle at mid-wall
-  std::vector<double> critical_stretch;  ///< factor at the centre
-  std::vector<double> stiffness;         ///< factor at the centre
-  std::vector<double> thickness;         ///< share of the wall that is left at the centre, from the lumen on
+  std::vector<Spot> list;
   double period = INFINITY;  ///< m: distances along the axis are those round a ring of this length
 
-  std::size_t size() const { return position.size(); }
+  /// Whether the wall is thinner at one of them.
+  bool thin_the_wall() const;
 
-  /// 1 at the centre of spot `i`, 0 from its radius on: (1 + cos(pi d / radius)) / 2 at distance d along the
+  /// 1 at the centre of `spot`, 0 from its radius on: (1 + cos(pi d / radius)) / 2 at distance d along the
   /// circle of `mid_radius` and the axis; angle in rad, lengths in m.
-  double nearness(std::size_t i, double mid_radius, double angle, double z) const;
+  double nearness(const Spot& spot, double mid_radius, double angle, double z) const;
 };
 
 ParameterList declare(Scatter& s);

@@ -8,30 +8,24 @@ namespace rhexis::peridynamics {
 
 ParameterList declare(LawChoice& law) {
   return {
-      {"material.law",
-       &law.name,
-       "",
-       "\"pmb\"",
-       "How bonds pull: pmb (in proportion to their stretch s, the paper's), fung (stiffening as collagen "
-       "does, exp(a s^2) times as strong) or lps (linear peridynamic solid: state-based, any Poisson's "
-       "ratio).",
-       "Eq. (2); Fung 1979; Silling 2007",
-       {},
-       {"pmb", "fung", "lps"}},
-      {"material.poisson_ratio",
-       &law.poisson_ratio,
-       "1",
-       "0.25",
-       "Poisson's ratio; other than 1/4 only with law = \"lps\".",
-       "Silling 2007",
-       {.lower = -1, .upper = 0.4999, .lower_open = true}},
-      {"material.fung_exponent",
-       &law.fung_exponent,
-       "1",
-       "\"auto\"",
-       "The exponent a; to be given with law = \"fung\", and only there.",
-       "",
-       {.lower = 0, .upper = 50, .lower_open = true}},
+      {.key = "material.law",
+       .target = &law.name,
+       .meaning = "How bonds pull: pmb (in proportion to their stretch s, the paper's), fung (stiffening as "
+                  "collagen does, exp(a s^2) times as strong) or lps (linear peridynamic solid: state-based, "
+                  "any Poisson's ratio).",
+       .source = "Eq. (2); Fung 1979; Silling 2007",
+       .choices = {"pmb", "fung", "lps"}},
+      {.key = "material.poisson_ratio",
+       .target = &law.poisson_ratio,
+       .unit = "1",
+       .meaning = "Poisson's ratio; other than 1/4 only with law = \"lps\".",
+       .source = "Silling 2007",
+       .range = {.lower = -1, .upper = 0.4999, .lower_open = true}},
+      {.key = "material.fung_exponent",
+       .target = &law.fung_exponent,
+       .unit = "1",
+       .meaning = "The exponent a; to be given with law = \"fung\", and only there.",
+       .range = {.lower = 0, .upper = 50, .lower_open = true}},
   };
 }
 
@@ -57,8 +51,7 @@ void check_hardening(const LawChoice& law, double critical_stretch) {
   if (at_break > 10) {
     throw InputError(
         "a bond would pull exp(" + text(at_break) +
-            ") times as hard as a linear one before it breaks; a critical_stretch^2 may be 10 at "
-            "most",
+            ") times as hard as a linear one before it breaks; a critical_stretch^2 may be 10 at most",
         "material.fung_exponent");
   }
 }

@@ -18,7 +18,7 @@ ThinSpots::ThinSpots(const Parameters& p, const Lattice& lattice, const Pressure
       outer_radius_(p.outer_radius),
       spots_(p.spots),
       keeps_resultant_(p.layer != "paper") {
-  if (std::ranges::all_of(spots_.thickness, [](double f) { return f == 1; })) return;
+  if (!spots_.thin_the_wall()) return;
   const CrossSection& s = lattice.section;
   const auto load = [&](std::size_t c) { return std::hypot(layer.bx[c], layer.by[c]) * lattice.volume(c); };
   for (std::size_t c = 0; c < s.size(); ++c) {
@@ -51,8 +51,8 @@ ThinSpots::ThinSpots(const Parameters& p, const Lattice& lattice, const Pressure
 double ThinSpots::outer_radius_at(double x, double y, double z) const {
   const double mid_radius = 0.5 * (inner_radius_ + outer_radius_), angle = std::atan2(y, x);
   double share = 1;
-  for (std::size_t i = 0; i < spots_.size(); ++i)
-    share = std::min(share, 1 + (spots_.thickness[i] - 1) * spots_.nearness(i, mid_radius, angle, z));
+  for (const Spot& spot : spots_.list)
+    share = std::min(share, 1 + (spot.thickness - 1) * spots_.nearness(spot, mid_radius, angle, z));
   return inner_radius_ + share * (outer_radius_ - inner_radius_);
 }
 

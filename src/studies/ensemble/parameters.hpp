@@ -13,8 +13,8 @@ struct Parameters {
   std::vector<double> pressures = {};                                 ///< Pa, ascending once resolved
   std::optional<double> lowest_pressure = {}, highest_pressure = {};  ///< Pa
   std::optional<std::int64_t> pressure_count = {};
-  std::int64_t samples = 0;  ///< walls that meet every pressure
-  std::int64_t seed = 0;
+  std::int64_t samples = 100;  ///< walls that meet every pressure
+  std::int64_t seed = 1;
   double strength_spread = 0, thickness_spread = 0, stiffness_spread = 0;  ///< coefficients of variation
 
   /// Vessels to simulate: every wall under every pressure.

@@ -9,7 +9,7 @@ namespace rhexis::screening {
 
 struct Parameters {
   std::int64_t top = 0;
-  double critical_stretch = 0;
+  double critical_stretch = 0.25;
 };
 
 ParameterList declare(Parameters& p);

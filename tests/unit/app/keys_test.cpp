@@ -77,6 +77,17 @@ TEST(Keys, DependOnOthersThatThereAreAndValuesThatTheseTake) {
   EXPECT_GT(dependent, 30);
 }
 
+TEST(Keys, TakeTheirOwnDefaultsAsTheyAreShown) {
+  Configuration c;
+  const ParameterList all = declare(c);
+  for (const Parameter& parameter : all) {
+    if (parameter.required || input::is_repeated(parameter)) continue;
+    const input::Value shown = input::default_value(parameter);
+    EXPECT_NO_THROW(input::store(shown, parameter)) << parameter.key;
+    EXPECT_EQ(written(input::default_value(parameter)), written(shown)) << parameter.key;
+  }
+}
+
 TEST(Keys, ThatHaveAnEffectAreNotWarnedOf) {
   EXPECT_EQ(warnings_of(vessel), std::vector<std::string>{});
   EXPECT_EQ(warnings_of(tree), std::vector<std::string>{});

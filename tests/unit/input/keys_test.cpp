@@ -6,9 +6,12 @@
 #include <sstream>
 
 #include "core/error.hpp"
+#include "input/catalogue.hpp"
 #include "input/description.hpp"
 #include "input/document.hpp"
 #include "input/reader.hpp"
+#include "input/units.hpp"
+#include "input/values.hpp"
 #include "sample_parameters.hpp"
 
 namespace rhexis::input {
@@ -107,12 +110,31 @@ TEST(Keys, ExamplesAreAcceptedByTheirOwnKeys) {
   }
 }
 
+TEST(Keys, DefaultsAreWrittenAsTheirKeysReadThem) {
+  Sample sample;
+  const ParameterList parameters = sample.parameters();
+  const auto shown = [&](const char* key) { return written(default_value(*find(parameters, key))); };
+  EXPECT_EQ(shown("vessel.outer_radius"), "\"2 mm\"");
+  EXPECT_EQ(shown("material.density"), "\"1.3 g/cm3\"");
+  EXPECT_EQ(shown("material.critical_stretch"), "0.25");
+  EXPECT_EQ(shown("discretisation.cross_section"), "\"polar\"");
+  EXPECT_EQ(shown("discretisation.particles"), "\"auto\"");
+  EXPECT_EQ(shown("load.table"), "[]");
+  EXPECT_EQ(shown("output.every_steps"), "100");
+  EXPECT_EQ(shown("output.fields"), "[\"displacement\", \"damage\"]");
+  EXPECT_EQ(shown("insitu.movie"), "true");
+  // A number with more digits than people write, in a unit that is no power of ten.
+  sample.end = 0.1 + 0.2;
+  EXPECT_EQ(to_si(written_in("min", sample.end, "s"), "s"), sample.end);
+}
+
 TEST(Keys, ExamplesFitUnusualRanges) {
   double target = 0;
   std::int64_t whole = 0;
-  EXPECT_EQ(example({"a.b", &target, "m", {}, "", "", Range::between(5, 7)}), "\"6 m\"");
-  EXPECT_EQ(example({"a.b", &target, "1", {}, "", "", Range{.upper = -2}}), "-3");
-  EXPECT_EQ(example({"a.b", &whole, "1", {}, "", "", Range::at_least(100)}), "101");
+  EXPECT_EQ(example({.key = "a.b", .target = &target, .unit = "m", .range = Range::between(5, 7)}),
+            "\"6 m\"");
+  EXPECT_EQ(example({.key = "a.b", .target = &target, .unit = "1", .range = {.upper = -2}}), "-3");
+  EXPECT_EQ(example({.key = "a.b", .target = &whole, .unit = "1", .range = Range::at_least(100)}), "101");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(Reader, FillsEveryTypeInSi) {
   EXPECT_EQ(sample.inner_radius, 0.0015);
   EXPECT_EQ(sample.length, 0.03);
   EXPECT_EQ(sample.critical_stretch, 0.2);
-  EXPECT_EQ(sample.cross_section, "lattice");
+  EXPECT_EQ(sample.cross_section, CrossSection::lattice);
   EXPECT_EQ(sample.spacing, 1e-4);
   EXPECT_EQ(sample.particles, 1000000);
   EXPECT_EQ(sample.table, (std::vector<CurvePoint>{{0, 0}, {1e-3, 1e5}}));
@@ -62,12 +62,13 @@ TEST(Reader, FillsEveryTypeInSi) {
   EXPECT_FALSE(sample.movie);
 }
 
-TEST(Reader, DefaultsGoTheSameWay) {
+TEST(Reader, WhatIsNotGivenKeepsItsDefault) {
   Sample sample;
   read_text_into(sample, "[vessel]\ninner_radius = \"1 mm\"\n");
   EXPECT_EQ(sample.outer_radius, 0.002);
   EXPECT_EQ(sample.density, 1300);
   EXPECT_EQ(sample.critical_stretch, 0.25);
+  EXPECT_EQ(sample.cross_section, CrossSection::polar);
   EXPECT_EQ(sample.spacing, std::nullopt);
   EXPECT_EQ(sample.schedule, "smooth_ramp");
   EXPECT_EQ(sample.fields, (std::vector<std::string>{"displacement", "damage"}));

@@ -1,4 +1,4 @@
-// Sections that may stand any number of times, [[mark]]: each key gets one number from each.
+// Sections that may stand any number of times, [[mark]]: each fills one element of a list.
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
@@ -8,15 +8,39 @@
 namespace rhexis::input {
 namespace {
 
+struct Mark {
+  double position = 0, angle = 0, factor = 1;
+};
+
 struct Marks {
-  double length = 0;
-  std::vector<double> position, angle, factor;
+  double length = 0.02;
+  std::vector<Mark> list;
 
   ParameterList parameters() {
-    return {{"vessel.length", &length, "m", "\"20 mm\"", "Length of the segment.", "", Range::positive()},
-            {"mark.position", &position, "m", {}, "Where it is.", "", Range::not_negative(), {}, true},
-            {"mark.angle", &angle, "rad", "\"0 deg\"", "Around the axis.", "", {}, {}, true},
-            {"mark.factor", &factor, "1", "1", "How much.", "", Range::positive(), {}, true}};
+    return {
+        {.key = "vessel.length",
+         .target = &length,
+         .unit = "m",
+         .default_in = "mm",
+         .meaning = "Length of the segment.",
+         .range = Range::positive()},
+        {.key = "mark.position",
+         .target = ListTarget(&list, &Mark::position),
+         .unit = "m",
+         .meaning = "Where it is.",
+         .range = Range::not_negative(),
+         .required = true},
+        {.key = "mark.angle",
+         .target = ListTarget(&list, &Mark::angle),
+         .unit = "rad",
+         .default_in = "deg",
+         .meaning = "Around the axis."},
+        {.key = "mark.factor",
+         .target = ListTarget(&list, &Mark::factor),
+         .unit = "1",
+         .meaning = "How much.",
+         .range = Range::positive()},
+    };
   }
 };
 
@@ -49,27 +73,30 @@ std::string refusal(const std::string& text, const std::vector<std::string>& ove
 TEST(Repeated, EachTableGivesOneNumberOrItsDefault) {
   Marks marks;
   read_into(marks, two);
-  EXPECT_EQ(marks.position, (std::vector<double>{1e-3, 2e-3}));
-  EXPECT_EQ(marks.factor, (std::vector<double>{0.5, 1}));
-  ASSERT_EQ(marks.angle.size(), 2U);
-  EXPECT_EQ(marks.angle[0], 0);
-  EXPECT_NEAR(marks.angle[1], 3.141592653589793, 1e-15);
+  ASSERT_EQ(marks.list.size(), 2U);
+  EXPECT_EQ(marks.list[0].position, 1e-3);
+  EXPECT_EQ(marks.list[1].position, 2e-3);
+  EXPECT_EQ(marks.list[0].factor, 0.5);
+  EXPECT_EQ(marks.list[1].factor, 1);
+  EXPECT_EQ(marks.list[0].angle, 0);
+  EXPECT_NEAR(marks.list[1].angle, 3.141592653589793, 1e-15);
 }
 
 TEST(Repeated, MayBeAbsentAndInline) {
   Marks marks;
   read_into(marks, two);
   read_into(marks, "");
-  EXPECT_TRUE(marks.position.empty());
-  EXPECT_TRUE(marks.factor.empty());
+  EXPECT_TRUE(marks.list.empty());
   read_into(marks, "mark = [{position = \"3 mm\"}]\n");
-  EXPECT_EQ(marks.position, std::vector<double>{3e-3});
+  ASSERT_EQ(marks.list.size(), 1U);
+  EXPECT_EQ(marks.list[0].position, 3e-3);
 }
 
 TEST(Repeated, TheRecordAndTheCommandLineNumberTheTables) {
   Marks marks;
   const Resolved resolved = read_into(marks, two, {"mark[2].factor=3"});
-  EXPECT_EQ(marks.factor, (std::vector<double>{0.5, 3}));
+  EXPECT_EQ(marks.list[0].factor, 0.5);
+  EXPECT_EQ(marks.list[1].factor, 3);
   const auto json = to_json(resolved);
   EXPECT_EQ(json["mark[1]"]["position"]["value"], 1e-3);
   EXPECT_EQ(json["mark[2]"]["angle"]["written"], "180 deg");

@@ -10,84 +10,132 @@
 
 namespace rhexis::input {
 
+enum class CrossSection { lattice, polar };
+
+constexpr auto name_table(CrossSection) {
+  using enum CrossSection;
+  return std::to_array<Named<CrossSection>>({{lattice, "lattice"}, {polar, "polar"}});
+}
+
 struct Sample {
-  double inner_radius = 0, outer_radius = 0, length = 0;
-  double density = 0, young_modulus = 0, critical_stretch = 0;
-  std::string cross_section;
+  double inner_radius = 0, outer_radius = 2e-3, length = 0.02;
+  double density = 1300, young_modulus = 1e6, critical_stretch = 0.25;
+  CrossSection cross_section = CrossSection::polar;
   std::optional<double> spacing;
   std::optional<std::int64_t> particles;
-  double pressure = 0;
-  std::string schedule;
+  double pressure = 238e3;
+  std::string schedule = "smooth_ramp";
   std::vector<CurvePoint> table;
   std::optional<double> step;
-  double end = 0;
-  std::int64_t every_steps = 0;
-  std::vector<std::string> fields;
+  double end = 1e-3;
+  std::int64_t every_steps = 100;
+  std::vector<std::string> fields{"displacement", "damage"};
   std::vector<double> probes;
   std::vector<std::string> scripts;
-  bool movie = false;
+  bool movie = true;
 
   ParameterList parameters() {
     return {
-        {"vessel.inner_radius",
-         &inner_radius,
-         "m",
-         {},
-         "Inner radius before loading.",
-         "Table 1",
-         Range::positive()},
-        {"vessel.outer_radius", &outer_radius, "m", "\"2 mm\"", "Outer radius before loading.", "Table 1",
-         Range::positive()},
-        {"vessel.length", &length, "m", "\"20 mm\"", "Length of the segment.", "", Range{0, 1, true, false}},
-        {"material.density", &density, "kg/m3", "\"1.3 g/cm3\"", "Mass density of the wall.", "Table 1",
-         Range::positive()},
-        {"material.young_modulus", &young_modulus, "Pa", "\"1 MPa\"", "Stiffness of the wall.", "Table 1",
-         Range::positive()},
-        {"material.critical_stretch", &critical_stretch, "1", "0.25", "Stretch at which a bond breaks.",
-         "Eq. (4)", Range{0, 10, true, true}},
-        {"discretisation.cross_section",
-         &cross_section,
-         "",
-         "\"polar\"",
-         "How the cross-section is filled.",
-         "",
-         {},
-         {"lattice", "polar"}},
-        {"discretisation.spacing", &spacing, "m", "\"auto\"",
-         "Distance between particles; by itself, a sixth of the thickness of the wall, so that three layers "
-         "of "
-         "bonds fit inside.",
-         "", Range::positive()},
-        {"discretisation.particles", &particles, "1", "\"auto\"", "Number of particles to aim at.", "",
-         Range::at_least(100)},
-        {"load.pressure", &pressure, "Pa", "\"238 kPa\"", "Pressure on the inner face.", "Sec. 4.1",
-         Range::not_negative()},
-        {"load.schedule",
-         &schedule,
-         "",
-         "\"smooth_ramp\"",
-         "How the pressure rises.",
-         "",
-         {},
-         {"step", "ramp", "smooth_ramp", "table"}},
-        only_with({"load.schedule", {"\"table\""}},
-                  {"load.table", &table, "s, Pa", "[]", "Pressure over time.", "", Range::not_negative()}),
-        {"time.step", &step, "s", "\"auto\"", "Time step.", "", Range::positive()},
-        {"time.end", &end, "s", "\"1 ms\"", "Time to simulate.", "", Range::positive()},
-        only_with({"time.step", {}}, {"output.every_steps", &every_steps, "1", "100",
-                                      "Steps between outputs.", "", Range::at_least(1)}),
-        {"output.fields",
-         &fields,
-         "",
-         "[\"displacement\", \"damage\"]",
-         "Fields to store.",
-         "",
-         {},
-         {"displacement", "velocity", "damage"}},
-        only_with({"insitu.movie", {"true"}}, {"output.probes", &probes, "m", "[]",
-                                               "Axial positions to record.", "", Range::not_negative()}),
-        {"insitu.scripts", &scripts, "", "[]", "Catalyst scripts.", ""},
-        {"insitu.movie", &movie, "", "true", "Make a movie of the pictures.", ""},
+        {.key = "vessel.inner_radius",
+         .target = &inner_radius,
+         .unit = "m",
+         .meaning = "Inner radius before loading.",
+         .source = "Table 1",
+         .range = Range::positive(),
+         .required = true},
+        {.key = "vessel.outer_radius",
+         .target = &outer_radius,
+         .unit = "m",
+         .default_in = "mm",
+         .meaning = "Outer radius before loading.",
+         .source = "Table 1",
+         .range = Range::positive()},
+        {.key = "vessel.length",
+         .target = &length,
+         .unit = "m",
+         .default_in = "mm",
+         .meaning = "Length of the segment.",
+         .range = Range{0, 1, true, false}},
+        {.key = "material.density",
+         .target = &density,
+         .unit = "kg/m3",
+         .default_in = "g/cm3",
+         .meaning = "Mass density of the wall.",
+         .source = "Table 1",
+         .range = Range::positive()},
+        {.key = "material.young_modulus",
+         .target = &young_modulus,
+         .unit = "Pa",
+         .default_in = "MPa",
+         .meaning = "Stiffness of the wall.",
+         .source = "Table 1",
+         .range = Range::positive()},
+        {.key = "material.critical_stretch",
+         .target = &critical_stretch,
+         .unit = "1",
+         .meaning = "Stretch at which a bond breaks.",
+         .source = "Eq. (4)",
+         .range = Range{0, 10, true, true}},
+        {.key = "discretisation.cross_section",
+         .target = &cross_section,
+         .meaning = "How the cross-section is filled."},
+        {.key = "discretisation.spacing",
+         .target = &spacing,
+         .unit = "m",
+         .meaning = "Distance between particles; by itself, a sixth of the thickness of the wall, so that "
+                    "three layers of bonds fit inside.",
+         .range = Range::positive()},
+        {.key = "discretisation.particles",
+         .target = &particles,
+         .unit = "1",
+         .meaning = "Number of particles to aim at.",
+         .range = Range::at_least(100)},
+        {.key = "load.pressure",
+         .target = &pressure,
+         .unit = "Pa",
+         .default_in = "kPa",
+         .meaning = "Pressure on the inner face.",
+         .source = "Sec. 4.1",
+         .range = Range::not_negative()},
+        {.key = "load.schedule",
+         .target = &schedule,
+         .meaning = "How the pressure rises.",
+         .choices = {"step", "ramp", "smooth_ramp", "table"}},
+        {.key = "load.table",
+         .target = &table,
+         .unit = "s, Pa",
+         .meaning = "Pressure over time.",
+         .range = Range::not_negative(),
+         .only_with = {{"load.schedule", {"\"table\""}}}},
+        {.key = "time.step",
+         .target = &step,
+         .unit = "s",
+         .meaning = "Time step.",
+         .range = Range::positive()},
+        {.key = "time.end",
+         .target = &end,
+         .unit = "s",
+         .default_in = "ms",
+         .meaning = "Time to simulate.",
+         .range = Range::positive()},
+        {.key = "output.every_steps",
+         .target = &every_steps,
+         .unit = "1",
+         .meaning = "Steps between outputs.",
+         .range = Range::at_least(1),
+         .only_with = {{"time.step", {}}}},
+        {.key = "output.fields",
+         .target = &fields,
+         .meaning = "Fields to store.",
+         .choices = {"displacement", "velocity", "damage"}},
+        {.key = "output.probes",
+         .target = &probes,
+         .unit = "m",
+         .meaning = "Axial positions to record.",
+         .range = Range::not_negative(),
+         .only_with = {{"insitu.movie", {"true"}}}},
+        {.key = "insitu.scripts", .target = &scripts, .meaning = "Catalyst scripts."},
+        {.key = "insitu.movie", .target = &movie, .meaning = "Make a movie of the pictures."},
     };
   }
 };

@@ -19,7 +19,12 @@ Parameters spotted(double critical_stretch, double stiffness, double thickness) 
   p.layer = "consistent";
   p.ends = "axial_periodic";
   p.critical_stretch = 0.1;
-  p.spots = {{2e-3}, {std::numbers::pi}, {1e-3}, {critical_stretch}, {stiffness}, {thickness}};
+  p.spots.list = {{.position = 2e-3,
+                   .angle = std::numbers::pi,
+                   .radius = 1e-3,
+                   .critical_stretch = critical_stretch,
+                   .stiffness = stiffness,
+                   .thickness = thickness}};
   return p;
 }
 
@@ -80,15 +85,15 @@ TEST(Spots, TheWallBreaksFirstWhereItIsWeak) {
 
 TEST(Spots, ReachAcrossTheSeamOfPeriodicEnds) {
   Parameters p = spotted(0.4, 1, 0.5);
-  p.spots.position[0] = 0.1e-3;
+  p.spots.list[0].position = 0.1e-3;
   resolve(p);
   const double angle = std::numbers::pi;
-  EXPECT_NEAR(p.spots.nearness(0, mid_radius, angle, 3.8e-3), p.spots.nearness(0, mid_radius, angle, 0.4e-3),
+  EXPECT_NEAR(p.spots.nearness(p.spots.list[0], mid_radius, angle, 3.8e-3), p.spots.nearness(p.spots.list[0], mid_radius, angle, 0.4e-3),
               1e-12);
-  EXPECT_GT(p.spots.nearness(0, mid_radius, angle, 3.8e-3), 0.7);
+  EXPECT_GT(p.spots.nearness(p.spots.list[0], mid_radius, angle, 3.8e-3), 0.7);
   p.ends = "free";
   resolve(p);
-  EXPECT_EQ(p.spots.nearness(0, mid_radius, angle, 3.8e-3), 0);
+  EXPECT_EQ(p.spots.nearness(p.spots.list[0], mid_radius, angle, 3.8e-3), 0);
 }
 
 class ThinSpot : public testing::TestWithParam<const char*> {
@@ -201,13 +206,13 @@ TEST(Spots, RefusesWhatIsNoSpot) {
   EXPECT_EQ(key(spotted(0.5, 2, 0.5)), "none");
   EXPECT_EQ(key(spotted(1, 1, 0.19)), "spot[1].thickness");
   Parameters far = spotted(0.5, 1, 1);
-  far.spots.position[0] = 4.1e-3;
+  far.spots.list[0].position = 4.1e-3;
   EXPECT_EQ(key(far), "spot[1].position");
   Parameters unloaded = spotted(1, 1, 0.5);
   unloaded.layer = "paper";
   EXPECT_EQ(resolve(unloaded).size(), 1U);
   Parameters small = spotted(0.5, 1, 1);
-  small.spots.radius[0] = 1.9e-4;
+  small.spots.list[0].radius = 1.9e-4;
   EXPECT_EQ(resolve(small).size(), 1U);
 }
 
