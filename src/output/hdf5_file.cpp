@@ -267,7 +267,7 @@ void change_structure(const std::filesystem::path& path, Hdf5File::Mode mode, st
     // them is had first, and freed just before, also when `change` fails. More than a data set and all
     // attributes take.
     const SpareSpace room(path, static_cast<std::int64_t>(128 + datasets) * 1024);
-    file = std::make_unique<Hdf5File>(path, mode, parallel::Communicator(MPI_COMM_SELF));
+    file = std::make_unique<Hdf5File>(path, mode, parallel::Communicator::self());
     change(*file);
   }
   file->close();

@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <thread>
 
 #include "parallel/node.hpp"
 #include "parallel/threads.hpp"
@@ -94,6 +97,14 @@ Session::~Session() {
   MPI_Finalize();
 }
 
+Communicator Communicator::world() {
+  return Communicator(MPI_COMM_WORLD);
+}
+
+Communicator Communicator::self() {
+  return Communicator(MPI_COMM_SELF);
+}
+
 int Communicator::rank() const {
   int rank = 0;
   MPI_Comm_rank(handle_, &rank);
@@ -108,6 +119,27 @@ int Communicator::size() const {
 
 void Communicator::barrier() const {
   MPI_Barrier(handle_);
+}
+
+bool Communicator::barrier_within(double seconds) const {
+  MPI_Request arrival = MPI_REQUEST_NULL;
+  MPI_Ibarrier(handle_, &arrival);
+  if (std::isinf(seconds)) return MPI_Wait(&arrival, MPI_STATUS_IGNORE) == MPI_SUCCESS;
+  const double start = MPI_Wtime();
+  int arrived = 0;
+  while (MPI_Test(&arrival, &arrived, MPI_STATUS_IGNORE) == MPI_SUCCESS && arrived == 0) {
+    if (MPI_Wtime() - start > seconds) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+OwnCommunicator::OwnCommunicator(Communicator original) {
+  MPI_Comm_dup(original.handle(), &handle_);
+}
+
+OwnCommunicator::~OwnCommunicator() {
+  MPI_Comm_free(&handle_);
 }
 
 bool Communicator::leads_node() const {

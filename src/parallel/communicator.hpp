@@ -24,15 +24,18 @@ enum class Reduce { sum, min, max, bit_or };
 /// A borrowed group of ranks; cheap to copy.
 class Communicator {
  public:
-  static Communicator world() { return Communicator(MPI_COMM_WORLD); }
+  static Communicator world();
   /// This rank alone.
-  static Communicator self() { return Communicator(MPI_COMM_SELF); }
+  static Communicator self();
   explicit Communicator(MPI_Comm handle) : handle_(handle) {}
 
   int rank() const;
   int size() const;
   bool is_root() const { return rank() == 0; }
   void barrier() const;
+  /// Waits for all ranks, at most for `seconds`, which may be infinite and may differ between ranks; false
+  /// where a rank has not come by then. Meets only itself, not `barrier`. Collective.
+  bool barrier_within(double seconds) const;
   /// Machines that the ranks run on. Collective.
   int node_count() const;
   /// One rank of each node does.
@@ -55,6 +58,19 @@ class Communicator {
   /// The first non-empty text in rank order, on every rank; empty if all are: how a failure on any rank
   /// becomes one message and one exit status everywhere.
   std::string first_non_empty(const std::string& text) const;
+
+ private:
+  MPI_Comm handle_;
+};
+
+/// The same ranks with messages of their own, for a library that sends some: a duplicate that this owns.
+class OwnCommunicator {
+ public:
+  explicit OwnCommunicator(Communicator original);
+  ~OwnCommunicator();
+  OwnCommunicator(const OwnCommunicator&) = delete;
+  OwnCommunicator& operator=(const OwnCommunicator&) = delete;
+  MPI_Comm& handle() { return handle_; }
 
  private:
   MPI_Comm handle_;

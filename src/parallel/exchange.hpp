@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "parallel/communicator.hpp"
@@ -24,41 +24,39 @@ struct ByRank {
   }
 };
 
-/// An MPI type of `bytes` bytes, so that counts are records.
-class RecordType {
- public:
-  explicit RecordType(std::size_t bytes) {
-    MPI_Type_contiguous(static_cast<int>(bytes), MPI_BYTE, &handle_);
-    MPI_Type_commit(&handle_);
-  }
-  ~RecordType() { MPI_Type_free(&handle_); }
-  RecordType(const RecordType&) = delete;
-  RecordType& operator=(const RecordType&) = delete;
-  MPI_Datatype handle() const { return handle_; }
-
- private:
-  MPI_Datatype handle_ = MPI_DATATYPE_NULL;
+/// How many records come from, or go to, each rank.
+struct RecordRuns {
+  std::vector<int> count;  ///< [ranks]
+  std::vector<int> start;  ///< [ranks + 1], the running sum of `count`
 };
+
+/// How many records every rank has for this one, where this one has outgoing[r] for rank r. Collective.
+RecordRuns incoming_runs(Communicator comm, const std::vector<int>& outgoing);
+/// How many records every rank has, where this one has `own`. Collective.
+RecordRuns gathered_runs(Communicator comm, int own);
+/// Sends `outgoing` to all ranks and fills `incoming`, both packed rank by rank. Collective.
+void exchange_records(Communicator comm, std::size_t record_bytes, const void* outgoing,
+                      const RecordRuns& outgoing_runs, void* incoming, const RecordRuns& incoming_runs);
+/// Fills `gathered` with the `own` records of every rank. Collective.
+void gather_records(Communicator comm, std::size_t record_bytes, const void* mine, int own, void* gathered,
+                    const RecordRuns& runs);
+/// The running sum of `count`, from 0.
+RecordRuns runs_of(std::vector<int> count);
 
 /// Sends outgoing[r] to every rank r; returns what all ranks sent to this one, each rank's in its order.
 template <class T>
 ByRank<T> all_to_all(Communicator comm, const std::vector<std::vector<T>>& outgoing) {
   static_assert(std::is_trivially_copyable_v<T>);
-  const auto ranks = static_cast<std::size_t>(comm.size());
-  std::vector<int> count(ranks), start(ranks + 1), incoming(ranks);
+  std::vector<int> count;
   std::vector<T> packed;
-  for (std::size_t r = 0; r < ranks; ++r) {
-    count[r] = static_cast<int>(outgoing[r].size());
-    packed.insert(packed.end(), outgoing[r].begin(), outgoing[r].end());
+  for (const std::vector<T>& records : outgoing) {
+    count.push_back(static_cast<int>(records.size()));
+    packed.insert(packed.end(), records.begin(), records.end());
   }
-  std::inclusive_scan(count.begin(), count.end(), start.begin() + 1);
-  MPI_Alltoall(count.data(), 1, MPI_INT, incoming.data(), 1, MPI_INT, comm.handle());
-  ByRank<T> result{{}, std::vector<int>(ranks + 1)};
-  std::inclusive_scan(incoming.begin(), incoming.end(), result.start.begin() + 1);
-  result.records.resize(static_cast<std::size_t>(result.start.back()));
-  const RecordType type(sizeof(T));
-  MPI_Alltoallv(packed.data(), count.data(), start.data(), type.handle(), result.records.data(),
-                incoming.data(), result.start.data(), type.handle(), comm.handle());
+  const RecordRuns runs = runs_of(std::move(count));
+  const RecordRuns incoming = incoming_runs(comm, runs.count);
+  ByRank<T> result{std::vector<T>(static_cast<std::size_t>(incoming.start.back())), incoming.start};
+  exchange_records(comm, sizeof(T), packed.data(), runs, result.records.data(), incoming);
   return result;
 }
 
@@ -66,16 +64,10 @@ ByRank<T> all_to_all(Communicator comm, const std::vector<std::vector<T>>& outgo
 template <class T>
 ByRank<T> all_gather(Communicator comm, const std::vector<T>& mine) {
   static_assert(std::is_trivially_copyable_v<T>);
-  const auto ranks = static_cast<std::size_t>(comm.size());
   const int own = static_cast<int>(mine.size());
-  std::vector<int> count(ranks);
-  MPI_Allgather(&own, 1, MPI_INT, count.data(), 1, MPI_INT, comm.handle());
-  ByRank<T> result{{}, std::vector<int>(ranks + 1)};
-  std::inclusive_scan(count.begin(), count.end(), result.start.begin() + 1);
-  result.records.resize(static_cast<std::size_t>(result.start.back()));
-  const RecordType type(sizeof(T));
-  MPI_Allgatherv(mine.data(), own, type.handle(), result.records.data(), count.data(), result.start.data(),
-                 type.handle(), comm.handle());
+  const RecordRuns runs = gathered_runs(comm, own);
+  ByRank<T> result{std::vector<T>(static_cast<std::size_t>(runs.start.back())), runs.start};
+  gather_records(comm, sizeof(T), mine.data(), own, result.records.data(), runs);
   return result;
 }
 

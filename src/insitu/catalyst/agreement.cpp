@@ -2,10 +2,9 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
+#include <limits>
 
 namespace rhexis::insitu {
 namespace {
@@ -48,19 +47,10 @@ std::string Agreement::agree(const std::string& text) {
 }
 
 void Agreement::await_others(const std::string& text) const {
-  MPI_Request arrival = MPI_REQUEST_NULL;
-  MPI_Ibarrier(communicator_.handle(), &arrival);
-  if (text.empty()) {
-    MPI_Wait(&arrival, MPI_STATUS_IGNORE);
-    return;
-  }
-  const auto start = std::chrono::steady_clock::now();
-  int arrived = 0;
-  while (MPI_Test(&arrival, &arrived, MPI_STATUS_IGNORE) == MPI_SUCCESS && arrived == 0) {
-    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > stuck_limit_s_)
-      end_program(text + " (on rank " + std::to_string(communicator_.rank()) +
-                  "; the other ranks wait for it inside ParaView, so the run ends here)");
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const double patience = text.empty() ? std::numeric_limits<double>::infinity() : stuck_limit_s_;
+  if (!communicator_.barrier_within(patience)) {
+    end_program(text + " (on rank " + std::to_string(communicator_.rank()) +
+                "; the other ranks wait for it inside ParaView, so the run ends here)");
   }
 }
 

@@ -18,19 +18,6 @@
 
 namespace rhexis::insitu {
 
-/// A communicator of our own, so that ParaView's messages never meet the solver's.
-class OwnCommunicator {
- public:
-  explicit OwnCommunicator(parallel::Communicator original) { MPI_Comm_dup(original.handle(), &handle_); }
-  OwnCommunicator(const OwnCommunicator&) = delete;
-  OwnCommunicator& operator=(const OwnCommunicator&) = delete;
-  ~OwnCommunicator() { MPI_Comm_free(&handle_); }
-  MPI_Comm& handle() { return handle_; }
-
- private:
-  MPI_Comm handle_ = MPI_COMM_NULL;
-};
-
 class CatalystPipeline : public Pipeline {
  public:
   CatalystPipeline(const Settings& settings, parallel::Communicator communicator);
@@ -49,8 +36,8 @@ class CatalystPipeline : public Pipeline {
   void close();
 
   // In this order: what stands first goes last.
-  OwnCommunicator paraview_communicator_;
-  OwnCommunicator agreement_communicator_;
+  parallel::OwnCommunicator paraview_communicator_;  ///< ParaView's messages never meet the solver's
+  parallel::OwnCommunicator agreement_communicator_;
   std::filesystem::path image_directory_;
   std::function<void(const std::string& script, long step)> after_script_;
   long step_ = 0;  ///< the last that was processed
