@@ -152,10 +152,13 @@ class Watch {
 
 }  // namespace
 
-void prepare_signals() {
+void note_ignored_hangup() {
   struct sigaction hangup = {};
   sigaction(SIGHUP, nullptr, &hangup);
   hangup_was_ignored = hangup.sa_handler == SIG_IGN;
+}
+
+void prepare_signals() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

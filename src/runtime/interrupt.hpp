@@ -13,8 +13,12 @@
 
 namespace rhexis::runtime {
 
-/// Files beyond the limit of their size (SIGXFSZ) and closed pipes (SIGPIPE) become failures of the call
-/// that writes; SIGHUP that is ignored stays so. At the program's start, before MPI, which changes signals.
+/// Remembers whether SIGHUP is ignored, as under nohup: runs leave it ignored then. To be called before the
+/// constructors of shared libraries, one of which (UCX's, which Open MPI 5 loads) takes SIGHUP for itself.
+void note_ignored_hangup();
+
+/// Makes files beyond the limit of their size (SIGXFSZ) and closed pipes (SIGPIPE) failures of the call that
+/// writes. To be called at the program's start, before MPI, which changes signals.
 void prepare_signals();
 
 /// "SIGTERM".

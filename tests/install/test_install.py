@@ -49,7 +49,7 @@ class Install(unittest.TestCase):
 
     def test_an_example_builds_against_the_libraries(self):
         build = self.root / "build"
-        run(CMAKE, "-S", SOURCE / "examples/fork", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DCMAKE_BUILD_TYPE=Release")
+        run(CMAKE, "-S", SOURCE / "examples/fork", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")
         run(CMAKE, "--build", build)
         flows = [float(line.split()[2]) for line in run(build / "fork").splitlines()]
         self.assertEqual(len(flows), 3)
