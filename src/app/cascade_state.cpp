@@ -4,7 +4,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "app/network_files.hpp"
+#include "studies/flow/network_record.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -25,12 +25,12 @@ std::optional<T> optional_at(const Json& json, const char* key) {
 network::VesselKind kind_of(const std::string& text) {
   using enum network::VesselKind;
   for (const network::VesselKind kind : {artery, vein, unknown})
-    if (text == kind_text(kind)) return kind;
+    if (text == network::name_of(kind)) return kind;
   throw std::runtime_error("no kind of vessel: " + text);
 }
 
-QueriedVessel vessel_of(const Json& json) {
-  QueriedVessel q;
+hemodynamics::NetworkVessel vessel_of(const Json& json) {
+  hemodynamics::NetworkVessel q;
   q.name = json.at("name").get<std::string>();
   q.vessel = json.at("vessel").get<std::int64_t>();
   q.kind = kind_of(json.at("kind").get<std::string>());
@@ -91,7 +91,7 @@ CascadeState state_of(const Json& json) {
 
 nlohmann::ordered_json to_json(const CascadeEvent& e, std::size_t number) {
   Json json{{"event", number}, {"time_s", or_null(e.time)}, {"risk", e.risk}};
-  json.update(to_json(e.vessel));
+  json.update(studies::to_json(e.vessel));
   json.update({{"net_pressure_Pa", e.net_pressure},
                {"ruptured", or_null(e.ruptured)},
                {"rupture_onset_s", or_null(e.rupture_onset)},

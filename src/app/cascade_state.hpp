@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/configuration.hpp"
-#include "app/network_tier.hpp"
+#include "hemodynamics/steady/flow_solver.hpp"
 #include "output/checkpoint.hpp"
 #include "parallel/communicator.hpp"
 
@@ -16,7 +16,7 @@ namespace rhexis::app {
 
 /// One vessel that was simulated. What followed is known once the network has been solved with what it left.
 struct CascadeEvent {
-  QueriedVessel vessel;
+  hemodynamics::NetworkVessel vessel;
   double risk = 0;          ///< of that vessel (studies/screening/screening.hpp)
   double net_pressure = 0;  ///< Pa, the largest on the intact wall
   /// Whether the wall ruptured; none where an interrupt ended the event before it did.

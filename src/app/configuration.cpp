@@ -303,11 +303,7 @@ void resolve_coupling(Configuration& c) {
   if ((p.mode == "two_way" || p.events > 0) && c.network.source == "tree" && !h.outlet_pressure)
     throw InputError("needed where a tree bleeds: what then leaves it is less than flow.inlet_flow",
                      "flow.outlet_pressure");
-  if (p.screens()) {
-    c.screening.top = std::max<std::int64_t>(1, c.screening.top);
-  } else {
-    c.network.query.push_back(p.vessel);
-  }
+  if (p.screens()) c.screening.top = std::max<std::int64_t>(1, c.screening.top);
 }
 
 /// A slip in a unit is a factor of ten at least.

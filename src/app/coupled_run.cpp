@@ -10,8 +10,6 @@
 #include "app/checkpoint_input.hpp"
 #include "app/folder_plan.hpp"
 #include "app/network_coupling.hpp"
-#include "app/network_files.hpp"
-#include "app/network_tables.hpp"
 #include "app/pictures.hpp"
 #include "app/vessel_run.hpp"
 #include "core/error.hpp"
@@ -20,6 +18,7 @@
 #include "output/atomic_file.hpp"
 #include "parallel/together.hpp"
 #include "runtime/version.hpp"
+#include "studies/flow/network_tables.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -73,7 +72,7 @@ class CascadeRun {
           obstacle = fmt::format("event {} cannot be simulated: {}", state_.events.size() + 1, error.what());
         }
       }
-      results_.network = network_->network_results();
+      results_.network = network_->network_record();
       network_->write(session_.folder());
       session_.finish_pictures();
       session_.make_movie();
@@ -157,7 +156,7 @@ class CascadeRun {
 
   runtime::Ending simulate() {
     const auto number = state_.events.size() + 1;
-    const QueriedVessel vessel = network_->vessel();
+    const hemodynamics::NetworkVessel vessel = network_->vessel();
     session_.console().line(
         fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, network_->risk()));
     session_.pictures()->steps_before = state_.steps_before;
@@ -248,7 +247,7 @@ class CascadeRun {
         for (const char* column : columns) {
           const auto& value = event[column];
           row.push_back(value.is_null()     ? ""
-                        : value.is_string() ? quoted(value.template get<std::string>())
+                        : value.is_string() ? studies::quoted(value.template get<std::string>())
                                             : value.dump());
         }
         table += fmt::format("{}\n", fmt::join(row, ","));

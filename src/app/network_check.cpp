@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/check.hpp"
-#include "app/network_tier.hpp"
+#include "app/flow_scene.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
 #include "hemodynamics/steady/tree/tree_statistics.hpp"
@@ -39,11 +39,11 @@ double seconds_per_vessel(const Configuration& c, parallel::Communicator comm) {
 }  // namespace
 
 void check_network(const Configuration& c, parallel::Communicator comm) {
-  const auto tier = checked_tier(c, comm);
+  const auto solver = checked_solver(c, comm);
   runtime::Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
-  console.item("network", tier->description());
+  console.item("network", solver->description());
   if (c.network.source != "tree") return;
   const network::TreePair tree(c.tree);
   const auto vessels = static_cast<double>(tree.vessels());
@@ -57,7 +57,7 @@ void check_network(const Configuration& c, parallel::Communicator comm) {
   console.item("from heart", fmt::format("{} to the midplane", quantity(-tree.inlet()[0], "m")));
   const bool implicit = c.network.tier == "auto" || c.network.tier == "implicit";
   if (!implicit) {
-    console.item("memory", fmt::format("about {:.3g} MB", vessels * bytes_per_vessel / 1e6));
+    console.item("memory", fmt::format("about {:.3g} MB", vessels * hemodynamics::bytes_per_vessel / 1e6));
     return;
   }
   if (c.tree.repeats()) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "app/network_files.hpp"
+#include "app/flow_scene.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
@@ -23,10 +23,14 @@ NetworkCoupling::NetworkCoupling(const Configuration& c, parallel::Communicator 
     : c_(c), comm_(comm) {
   {
     const Stopwatch watch(network_s_);
-    tier_ = prepared_tier(c_, comm_);
-    console.item("network", tier_->description());
-    solution_ = tier_->solve([&](const std::string& text) { console.line(text); });
-    c_.warnings.insert(c_.warnings.end(), solution_.warnings.begin(), solution_.warnings.end());
+    solver_ = prepared_solver(c_, comm_);
+    find_named_vessel();
+    console.item("network", solver_->description());
+    network_ = studies::solve_network(
+        *solver_, flow_problem(c_), screening_plan(c_), [&](const std::string& text) { console.line(text); },
+        comm_);
+    const std::vector<std::string>& warnings = network_.solution.warnings;
+    c_.warnings.insert(c_.warnings.end(), warnings.begin(), warnings.end());
   }
   const Stopwatch watch(exchange_s_);
   choose();
@@ -34,7 +38,7 @@ NetworkCoupling::NetworkCoupling(const Configuration& c, parallel::Communicator 
 
 const Configuration& NetworkCoupling::hand_over() {
   const Stopwatch watch(exchange_s_);
-  vessel_ = tier_->vessel(chosen_);
+  vessel_ = solver_->vessel_in_network(chosen_.vessel);
   try {
     parallel::together<InputError>(comm_, [&] {
       if (!comm_.is_root()) return;
@@ -100,24 +104,35 @@ void NetworkCoupling::warn_of_a_short_piece() {
       quantity(free, "m", 3), quantity(reach, "m", 3)));
 }
 
+/// Looks for what the input names before anything is solved. Throws InputError, complete with place.
+void NetworkCoupling::find_named_vessel() {
+  for (const std::uint32_t v : c_.aftermath.settled) {
+    if (v >= solver_->vessels())
+      throw InputError("--restart: the network has fewer vessels than when the checkpoint was written");
+  }
+  if (c_.coupling.screens()) return;
+  try {
+    named_ = solver_->find(c_.coupling.vessel, "coupling.vessel");
+  } catch (const InputError& error) {
+    throw input::located(error, c_.resolved);
+  }
+}
+
 /// The vessel whose wall is simulated. A cascade comes to rest when there is none.
 void NetworkCoupling::choose() {
-  parallel::together<InputError>(comm_, [&] {
-    if (!c_.coupling.screens()) {
-      if (solution_.queries.empty()) return;
-      chosen_ = solution_.queries.back();
-      solution_.queries.pop_back();
-    } else if (!solution_.at_risk.empty()) {
-      chosen_ = solution_.at_risk.front();
-    } else if (comm_.is_root() && c_.coupling.events == 0) {
-      throw input::located(InputError("no vessel's wall is under tension", "coupling.vessel"), c_.resolved);
-    }
-    if (chosen_.radius == 0) return;
-    risk_ = screening::risk(criterion_of(c_), std::midpoint(chosen_.pressure_from, chosen_.pressure_to),
-                            chosen_.wall_thickness / chosen_.radius, {chosen_.strength_factor, 1});
-  });
-  // The first rank knows of an explicit network's.
-  risk_ = comm_.all_reduce(comm_.is_root() ? risk_ : 0.0, parallel::Reduce::sum);
+  if (named_) {
+    chosen_ = solver_->vessel(*named_);
+    chosen_.name = c_.coupling.vessel;
+  } else if (!network_.screened->at_risk.empty()) {
+    chosen_ = network_.screened->at_risk.front();
+  } else if (c_.coupling.events == 0) {
+    throw input::located(InputError("no vessel's wall is under tension", "coupling.vessel"), c_.resolved);
+  }
+  if (chosen_.radius > 0) {
+    risk_ =
+        screening::risk(screening_criterion(c_), std::midpoint(chosen_.pressure_from, chosen_.pressure_to),
+                        chosen_.wall_thickness / chosen_.radius, {chosen_.strength_factor, 1});
+  }
   at_rest_ = c_.coupling.events > 0 && c_.coupling.screens() && !(risk_ > c_.coupling.risk_limit);
 }
 
@@ -130,11 +145,11 @@ hemodynamics::Orifice NetworkCoupling::orifice(double opening) const {
 void NetworkCoupling::choose_places() {
   const coupling::Compression compression = coupling::compression(c_.coupling);
   const bool ranged = std::isfinite(compression.from) || std::isfinite(compression.to);
-  const hemodynamics::Hydrostatic weight = mechanics_of(c_).hydrostatic;
+  const hemodynamics::Hydrostatic weight = mechanics_of(flow_problem(c_)).hydrostatic;
   if (ranged && !chosen_.start)
     throw InputError("needs coordinates of the network, and it has none", "body.compression_from");
-  if (ranged && solution_.extent) {
-    const auto [low, high] = (*solution_.extent)[static_cast<std::size_t>(compression.axis)];
+  if (ranged && network_.solution.display.extent) {
+    const auto [low, high] = (*network_.solution.display.extent)[static_cast<std::size_t>(compression.axis)];
     if (compression.to < low || compression.from > high) {
       throw InputError(fmt::format("the compression lies outside the body, which reaches from {} m to {} m",
                                    text(low), text(high)),
@@ -179,7 +194,7 @@ std::vector<double> NetworkCoupling::profile(std::int64_t rows, double row_spaci
 }
 
 void NetworkCoupling::write(const output::ResultsFolder& folder) {
-  write_network(c_, solution_, folder, comm_);
+  studies::write_network(network_files_plan(c_), network_, folder, comm_);
 }
 
 void NetworkCoupling::open(const output::ResultsFolder& folder) {
@@ -234,9 +249,9 @@ void NetworkCoupling::end(double time_s) {
 
 LineSource& NetworkCoupling::lines() {
   std::vector<Annotation> notes{
-      {"vessels", "1", static_cast<double>(solution_.vessels)},
-      {"shown", "1", static_cast<double>(solution_.shown)},
-      {"inflow", "m3/s", solution_.inflow},
+      {"vessels", "1", static_cast<double>(network_.flow().vessels)},
+      {"shown", "1", static_cast<double>(network_.solution.display.shown)},
+      {"inflow", "m3/s", network_.flow().inflow},
       {"leak", "m3/s", leak_},
       {"event", "1", cascade_ != nullptr ? static_cast<double>(cascade_->events.size() + 1) : 0.0}};
   if (chosen_.start) {
@@ -245,16 +260,16 @@ LineSource& NetworkCoupling::lines() {
     for (std::size_t k = 0; k < 6; ++k)
       notes.push_back({names[k], "m", (k < 3 ? *chosen_.start : *chosen_.end)[k % 3]});
   }
-  solution_.lines.annotate(std::move(notes));
-  return solution_.lines;
+  network_.solution.display.lines.annotate(std::move(notes));
+  return network_.solution.display.lines;
 }
 
-NetworkResults NetworkCoupling::network_results() const {
-  return app::network_results(solution_);
+nlohmann::ordered_json NetworkCoupling::network_record() const {
+  return studies::network_record(&network_);
 }
 
 nlohmann::ordered_json NetworkCoupling::results() const {
-  nlohmann::ordered_json json{{"vessel", to_json(chosen_)},
+  nlohmann::ordered_json json{{"vessel", studies::to_json(chosen_)},
                               {"mode", c_.coupling.mode},
                               {"simulated_length_m", piece_.length},
                               {"simulated_from_m", piece_.start},
@@ -281,11 +296,11 @@ nlohmann::ordered_json NetworkCoupling::results() const {
 }
 
 void NetworkCoupling::print_header(runtime::Console& console) const {
-  console.item(
-      "coupling",
-      fmt::format("vessel {} ({}{}), length {}, net pressure {} to {}", chosen_.name, kind_text(chosen_.kind),
-                  chosen_.generation < 0 ? "" : fmt::format(", generation {}", chosen_.generation),
-                  quantity(data_.length, "m"), mmhg(load_.pressure[0]), mmhg(load_.pressure[2])));
+  console.item("coupling",
+               fmt::format("vessel {} ({}{}), length {}, net pressure {} to {}", chosen_.name,
+                           network::name_of(chosen_.kind),
+                           chosen_.generation < 0 ? "" : fmt::format(", generation {}", chosen_.generation),
+                           quantity(data_.length, "m"), mmhg(load_.pressure[0]), mmhg(load_.pressure[2])));
   if (!piece_.whole) {
     console.item(
         "piece",

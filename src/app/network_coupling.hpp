@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/cascade_state.hpp"
-#include "app/network_tier.hpp"
+#include "app/configuration.hpp"
 #include "app/results.hpp"
 #include "coupling/net_pressure.hpp"
 #include "coupling/wall_segment.hpp"
@@ -15,6 +15,7 @@
 #include "output/checkpoint.hpp"
 #include "output/results_folder.hpp"
 #include "runtime/console.hpp"
+#include "studies/flow/solved_network.hpp"
 
 namespace rhexis::app {
 
@@ -29,11 +30,13 @@ class NetworkCoupling {
   /// Once, before anything is exchanged: the configuration with that vessel, its load and its wall, resolved.
   /// Collective. Throws InputError.
   const Configuration& hand_over();
-  const QueriedVessel& vessel() const { return chosen_; }
-  double risk() const { return risk_; }               ///< of that vessel (studies/screening/screening.hpp)
-  double inflow() const { return solution_.inflow; }  ///< m3/s, of the network before the vessel ruptures
-  const std::vector<double>& leaks() const { return solution_.leaks; }
-  std::optional<double> flop() const { return solution_.flop; }
+  const hemodynamics::NetworkVessel& vessel() const { return chosen_; }
+  double risk() const { return risk_; }  ///< of that vessel (studies/screening/screening.hpp)
+  double inflow() const {
+    return network_.flow().inflow;
+  }  ///< m3/s, of the network before the vessel ruptures
+  const std::vector<double>& leaks() const { return network_.flow().leaks; }
+  std::optional<double> flop() const { return network_.flow().flop; }
   /// The vessel's opening as seen from the network, area in m2.
   hemodynamics::Orifice orifice(double opening) const;
 
@@ -78,7 +81,7 @@ class NetworkCoupling {
   void set_cascade(const CascadeState* cascade) { cascade_ = cascade; }
   /// The network as it is shown: with the vessel's place, pressure and leak.
   LineSource& lines();
-  NetworkResults network_results() const;
+  nlohmann::ordered_json network_record() const;
   nlohmann::ordered_json results() const;
   void print_header(runtime::Console& console) const;
   void print_summary(runtime::Console& console) const;
@@ -89,6 +92,7 @@ class NetworkCoupling {
       "time_s,schedule,net_pressure_from_Pa,net_pressure_middle_Pa,net_pressure_to_Pa,opening_m2,leak_m3_s,"
       "inflow_m3_s,outflow_m3_s,resistance_factor,imbalance";
 
+  void find_named_vessel();
   void choose();
   void compare_with(output::CheckpointReader& file) const;
   template <class Coupling, class Visit>
@@ -100,9 +104,10 @@ class NetworkCoupling {
 
   Configuration c_;  ///< with the vessel's geometry
   parallel::Communicator comm_;
-  std::unique_ptr<NetworkTier> tier_;
-  NetworkSolution solution_;
-  QueriedVessel chosen_;
+  std::unique_ptr<hemodynamics::FlowSolver> solver_;
+  studies::SolvedNetwork network_;
+  std::optional<std::int64_t> named_;  ///< number of coupling.vessel, where it is named
+  hemodynamics::NetworkVessel chosen_;
   bool at_rest_ = false;
   double risk_ = 0;
   std::unique_ptr<hemodynamics::VesselInNetwork> vessel_;

@@ -37,7 +37,7 @@ void NetworkCoupling::for_each_number(Coupling& c, const Visit& visit) {
 void NetworkCoupling::save(output::CheckpointWriter& file) const {
   file.write("coupling_mode", c_.coupling.mode);
   file.write(coupled_vessel_name, comm_.broadcast(chosen_.name));
-  file.write("network_inflow", solution_.inflow);
+  file.write("network_inflow", network_.flow().inflow);
   for (std::size_t i = 0; i < 3; ++i) file.write(load_name(i), first_load_.pressure[i]);
   if (two_way())
     for_each_number(*this,
@@ -81,8 +81,8 @@ void NetworkCoupling::compare_with(output::CheckpointReader& file) const {
     if (vessel != chosen_.name) differs("the chosen vessel", vessel, chosen_.name);
     // Another constant load is a user's right, and is told.
     if (!two_way() && cascade_ == nullptr) return;
-    if (!alike(inflow, solution_.inflow))
-      differs("its inflow", fmt::format("{} m3/s", inflow), fmt::format("{} m3/s", solution_.inflow));
+    if (!alike(inflow, network_.flow().inflow))
+      differs("its inflow", fmt::format("{} m3/s", inflow), fmt::format("{} m3/s", network_.flow().inflow));
     for (std::size_t i = 0; i < 3; ++i) {
       if (alike(load[i], first_load_.pressure[i])) continue;
       differs(fmt::format("the net pressure in the intact vessel ({})", places[i]),

@@ -25,7 +25,7 @@ void NetworkRun::print_header() {
   const hemodynamics::Parameters& h = c_.hemodynamics;
   session_.print_title();
   session_.warn(c_.warnings);
-  session_.console().item("network", tier_->description());
+  session_.console().item("network", solver_->description());
   session_.console().item(
       "blood", h.viscosity_law == "constant"
                    ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
@@ -36,14 +36,15 @@ void NetworkRun::print_header() {
 }
 
 void NetworkRun::print_summary() {
-  const NetworkSolution& s = solution_;
+  const hemodynamics::NetworkSolution& solution = network_.solution;
+  const hemodynamics::NetworkFlow& s = solution.flow;
   session_.console().line("Done.");
-  if (s.statistics) {
+  if (solution.statistics) {
     session_.console().line(
         "  generation     vessels  mean radius  flow each       arteries      veins     hoop stress");
-    for (const auto& g : s.statistics->generations) {
+    for (const auto& g : solution.statistics->generations) {
       // The first, the last, and every so many in between.
-      const auto count = static_cast<int>(s.statistics->generations.size());
+      const auto count = static_cast<int>(solution.statistics->generations.size());
       if (g.generation % ((count + 11) / 12) != 0 && g.generation != count - 1) continue;
       session_.console().line(
           fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}", g.generation,
@@ -72,28 +73,30 @@ void NetworkRun::print_summary() {
     session_.console().item("haematocrit",
                             fmt::format("fixed point after {} iterations", *s.haematocrit_iterations));
   }
-  for (const QueriedVessel& q : s.queries) {
+  for (const hemodynamics::NetworkVessel& q : solution.queries) {
     session_.console().item(
-        "vessel", fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name, kind_text(q.kind),
-                              q.generation < 0 ? "" : fmt::format(", generation {}", q.generation),
-                              quantity(q.radius, "m"), quantity(q.length, "m"), flow_text(q.flow),
-                              mmhg(q.pressure_from), mmhg(q.pressure_to)));
+        "vessel",
+        fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name, network::name_of(q.kind),
+                    q.generation < 0 ? "" : fmt::format(", generation {}", q.generation),
+                    quantity(q.radius, "m"), quantity(q.length, "m"), flow_text(q.flow),
+                    mmhg(q.pressure_from), mmhg(q.pressure_to)));
   }
   print_screening();
-  session_.console().item("shown", fmt::format("{} of {} vessels", grouped(s.shown), grouped(s.vessels)));
+  session_.console().item(
+      "shown", fmt::format("{} of {} vessels", grouped(solution.display.shown), grouped(s.vessels)));
   session_.print_cost(session_.performance());
 }
 
 void NetworkRun::print_screening() {
-  if (!solution_.screening) return;
-  const screening::Screening& s = *solution_.screening;
+  if (!network_.screened) return;
+  const screening::Screening& s = network_.screened->screening;
   session_.console().item(
       "at risk",
       fmt::format("{} strained beyond their critical stretch{}", grouped(static_cast<long long>(s.above)),
                   s.top.empty() ? "" : "; highest risk (strain over critical stretch):"));
   constexpr std::size_t most_said = 5;
   for (std::size_t i = 0; i < std::min(s.top.size(), most_said); ++i) {
-    const QueriedVessel& q = solution_.at_risk[i];
+    const hemodynamics::NetworkVessel& q = network_.screened->at_risk[i];
     session_.console().line(fmt::format(
         "  {:>10.3f}  {}{}, radius {}, wall {}, {} to {}{}", s.top[i].risk, q.name,
         q.generation < 0 ? "" : fmt::format(" (generation {})", q.generation), quantity(q.radius, "m", 3),

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/flow_scene.hpp"
 #include "app/folder_plan.hpp"
-#include "app/network_files.hpp"
 #include "app/pictures.hpp"
 #include "core/error.hpp"
 #include "core/stopwatch.hpp"
@@ -15,14 +15,14 @@ NetworkRun::NetworkRun(Configuration configuration, runtime::RunOptions options,
       comm_(comm),
       session_(scene_of(c_), std::move(options), comm,
                {[this] { return output::Values(results_); },
-                [this] { return runtime::Work{.network_flop = solution_.flop}; }}) {
+                [this] { return runtime::Work{.network_flop = network_.flow().flop}; }}) {
   if (!session_.options().restart.empty())
     throw InputError("--restart is for scenes with a wall, scene.model = \"vessel\" or \"coupled\"");
 }
 
 runtime::Ending NetworkRun::run() {
   session_.open_folder(folder_plan(c_, session_.options()));
-  tier_ = prepared_tier(c_, comm_);
+  solver_ = prepared_solver(c_, comm_);
   const runtime::Ending ending = session_.recorded([&] {
     session_.start_pictures();
     session_.open_record();
@@ -30,7 +30,7 @@ runtime::Ending NetworkRun::run() {
     solve();
     {
       const Stopwatch watch(session_.spent().output);
-      write_network(c_, solution_, session_.folder(), comm_);
+      studies::write_network(network_files_plan(c_), network_, session_.folder(), comm_);
     }
     draw();
     return 0;
@@ -41,15 +41,17 @@ runtime::Ending NetworkRun::run() {
 
 void NetworkRun::solve() {
   const Stopwatch watch(session_.spent().solve);
-  solution_ = tier_->solve([&](const std::string& text) { session_.console().line(text); });
-  session_.warn(solution_.warnings);
-  results_.network = network_results(solution_);
+  network_ = studies::solve_network(
+      *solver_, flow_problem(c_), screening_plan(c_),
+      [&](const std::string& text) { session_.console().line(text); }, comm_);
+  session_.warn(network_.solution.warnings);
+  results_.network = studies::network_record(&network_);
 }
 
 void NetworkRun::draw() {
-  if (session_.pictures()->pipeline && solution_.shown > 0) {
+  if (session_.pictures()->pipeline && network_.solution.display.shown > 0) {
     const Stopwatch watch(session_.spent().insitu);
-    session_.pictures()->process({.particles = nullptr, .network = &solution_.lines});
+    session_.pictures()->process({.particles = nullptr, .network = &network_.solution.display.lines});
   }
   session_.finish_pictures();
 }

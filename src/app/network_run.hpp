@@ -3,9 +3,10 @@
 
 #include <memory>
 
-#include "app/network_tier.hpp"
+#include "app/configuration.hpp"
 #include "app/results.hpp"
 #include "runtime/run_session.hpp"
+#include "studies/flow/solved_network.hpp"
 
 namespace rhexis::app {
 
@@ -27,8 +28,8 @@ class NetworkRun {
   parallel::Communicator comm_;
   Results results_;
   runtime::RunSession session_;
-  std::unique_ptr<NetworkTier> tier_;
-  NetworkSolution solution_;
+  std::unique_ptr<hemodynamics::FlowSolver> solver_;
+  studies::SolvedNetwork network_;
 };
 
 }  // namespace rhexis::app

@@ -12,22 +12,6 @@ Json or_null(const std::optional<T>& value) {
 
 }  // namespace
 
-void to_json(Json& json, const NetworkResults& network) {
-  json = Json::object({{"vessels", or_null(network.vessels)},
-                       {"junctions", or_null(network.junctions)},
-                       {"inflow_m3_s", or_null(network.inflow_m3_s)},
-                       {"max_imbalance", or_null(network.max_imbalance)},
-                       {"volume_m3", or_null(network.volume_m3)},
-                       {"surface_m2", or_null(network.surface_m2)},
-                       {"highest_reynolds", or_null(network.highest_reynolds)},
-                       {"highest_pressure_Pa", or_null(network.highest_pressure_Pa)},
-                       {"lowest_pressure_Pa", or_null(network.lowest_pressure_Pa)},
-                       {"solver", or_null(network.solver)},
-                       {"iterations", or_null(network.iterations)},
-                       {"queries", network.queries},
-                       {"screening", network.screening}});
-}
-
 void to_json(Json& json, const Results& results) {
   json = Json::object({{"particles", or_null(results.particles)},
                        {"bonds", or_null(results.bonds)},

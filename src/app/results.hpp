@@ -6,21 +6,9 @@
 #include <optional>
 #include <string>
 
-namespace rhexis::app {
+#include "studies/flow/network_record.hpp"
 
-/// The `results.network` part; a member without a value is written as null.
-struct NetworkResults {
-  std::optional<std::int64_t> vessels = {}, junctions = {};
-  std::optional<double> inflow_m3_s = {};
-  std::optional<double> max_imbalance = {};               ///< relative to the inflow
-  std::optional<double> volume_m3 = {}, surface_m2 = {};  ///< of the lumens
-  std::optional<double> highest_reynolds = {};            ///< number
-  std::optional<double> highest_pressure_Pa = {}, lowest_pressure_Pa = {};
-  std::optional<std::string> solver = {};
-  std::optional<std::int64_t> iterations = {};
-  nlohmann::ordered_json queries = nullptr;    ///< a list of the vessels that the user asked for
-  nlohmann::ordered_json screening = nullptr;  ///< how many vessels are above their limit, and a list
-};
+namespace rhexis::app {
 
 /// The `results` part; a member without a value is written as null.
 struct Results {
@@ -40,13 +28,12 @@ struct Results {
   std::optional<double> rupture_length_m = {};  ///< axial extent of damage >= 0.2
   std::optional<double> opening_area_m2 = {};   ///< of the holes in the wall, at the end
   std::optional<double> energy_drift = {};
-  NetworkResults network = {};
+  nlohmann::ordered_json network = studies::network_record();
   nlohmann::ordered_json coupling = nullptr;  ///< the vessel's place in the network, and what they exchanged
   nlohmann::ordered_json cascade = nullptr;   ///< its events
   nlohmann::ordered_json ensemble = nullptr;  ///< pressures, samples and their cost
 };
 
-void to_json(nlohmann::ordered_json& json, const NetworkResults& network);
 void to_json(nlohmann::ordered_json& json, const Results& results);
 
 }  // namespace rhexis::app

@@ -102,7 +102,7 @@ void VesselRun::build() {
   lumen_ = std::make_unique<peridynamics::LumenGauge>(lattice_, *body_, comm_);
   if (coupling_ == nullptr) return;
   take_load();
-  results_.network = coupling_->network_results();
+  results_.network = coupling_->network_record();
   results_.coupling = coupling_->results();
 }
 

@@ -14,6 +14,11 @@ constexpr double smallest_measure = 1e-12, largest_measure = 100;
 
 enum class VesselKind : std::uint8_t { artery = 0, vein = 1, unknown = 2 };
 
+/// "artery", "vein", or "vessel" where that is unknown.
+inline const char* name_of(VesselKind kind) {
+  return kind == VesselKind::artery ? "artery" : kind == VesselKind::vein ? "vein" : "vessel";
+}
+
 /// Arrays over J junctions and V vessels; those marked optional are empty where nobody knows their values.
 struct Graph {
   std::size_t junctions = 0;    ///< J

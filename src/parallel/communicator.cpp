@@ -189,6 +189,10 @@ std::string Communicator::broadcast(std::string text, int root) const {
   return text;
 }
 
+void Communicator::broadcast_bytes(void* bytes, std::size_t count, int root) const {
+  MPI_Bcast(bytes, static_cast<int>(count), MPI_BYTE, root, handle_);
+}
+
 std::string Communicator::first_non_empty(const std::string& text) const {
   const std::int64_t first = all_reduce(std::int64_t{text.empty() ? size() : rank()}, Reduce::min);
   return first == size() ? std::string{} : broadcast(text, static_cast<int>(first));

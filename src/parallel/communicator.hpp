@@ -3,9 +3,11 @@
 
 #include <mpi.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 
 namespace rhexis::parallel {
 
@@ -54,12 +56,22 @@ class Communicator {
 
   /// `text` of `root` on every rank.
   std::string broadcast(std::string text, int root = 0) const;
+  /// The same of a value that may be copied byte by byte.
+  template <class T>
+  requires(std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::is_array_v<T>) T
+      broadcast(T value, int root = 0)
+  const {
+    broadcast_bytes(&value, sizeof value, root);
+    return value;
+  }
 
   /// The first non-empty text in rank order, on every rank; empty if all are: how a failure on any rank
   /// becomes one message and one exit status everywhere.
   std::string first_non_empty(const std::string& text) const;
 
  private:
+  void broadcast_bytes(void* bytes, std::size_t count, int root) const;
+
   MPI_Comm handle_;
 };
 

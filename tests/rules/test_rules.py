@@ -26,7 +26,7 @@ MAY_INCLUDE = {
     "network": {"parallel"},
     "hemodynamics": {"network", "parallel"},
     "coupling": {"parallel", "network", "hemodynamics", "peridynamics"},
-    "studies": {"parallel", "network", "hemodynamics", "peridynamics"},
+    "studies": {"parallel", "network", "hemodynamics", "peridynamics", "output"},
     "output": {"parallel"},
     "insitu": {"parallel"},
     "runtime": {"parallel", "input", "output", "insitu"},

@@ -52,6 +52,8 @@ class RiskTally {
  public:
   RiskTally(int generations, std::size_t top);
 
+  int generations() const { return static_cast<int>(generations_.size()) - 1; }
+
   /// `generation`: -1 where there is none.
   void add(int generation, network::VesselKind kind, const RankedVessel& vessel);
   /// Arteries or veins of one generation of a tree from place `first` on; `risks` filled up to whole vectors.

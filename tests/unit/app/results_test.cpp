@@ -46,7 +46,7 @@ TEST(Performance, HasAllNamesFromTheFirstMomentOn) {
 
 TEST(Results, KeepValues) {
   Results results{.particles = 54800, .max_damage = 0.1};
-  results.network.vessels = 34'000'000'000;
+  results.network["vessels"] = 34'000'000'000;
   const Json json = results;
   EXPECT_EQ(json["particles"], 54800);
   EXPECT_EQ(json["max_damage"], 0.1);

@@ -1,4 +1,4 @@
-#include "app/graph_network.hpp"
+#include "hemodynamics/steady/graph/network_graph.hpp"
 
 #include <fmt/format.h>
 
@@ -11,37 +11,28 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
-#include "input/units.hpp"
 #include "network/network_file.hpp"
 #include "network/tree_pair.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/large_array.hpp"
 #include "parallel/threads.hpp"
-#include "runtime/console.hpp"
 
-namespace rhexis::app {
+namespace rhexis::hemodynamics {
 
 using network::Graph;
 using network::TreePair;
 
-std::string describe_source(const Configuration& c) {
-  if (c.network.source == "file") return fmt::format("{}", fmt::join(c.network.files, ", "));
-  return fmt::format("tree pair of {} generations, {} vessels in memory", c.tree.generations,
-                     grouped(static_cast<long long>(TreePair::vessels_of(c.tree.generations))));
-}
-
-network::BoundedGraph make_graph_network(const Configuration& c,
-                                         const hemodynamics::Hydrostatic& hydrostatic) {
+network::BoundedGraph make_graph_network(const FlowProblem& problem, const Hydrostatic& hydrostatic) {
   network::BoundedGraph network;
-  if (c.network.source == "tree") {
-    const TreePair tree(c.tree);
+  if (problem.network.source == "tree") {
+    const TreePair tree(problem.tree);
     network.graph = tree.materialise();
     network.conditions =
-        hemodynamics::conditions_of(driving_boundary(c, tree, hydrostatic), 0,
-                                    static_cast<std::uint32_t>(std::uint64_t{1} << c.tree.generations));
+        conditions_of(driving_boundary(problem, tree, hydrostatic), 0,
+                      static_cast<std::uint32_t>(std::uint64_t{1} << problem.tree.generations));
     return network;
   }
-  network = network::read_network(c.network.files, c.network.file_length_unit, input::to_si);
+  network = network::read_network(problem.network.files, problem.network.file_length_unit, problem.to_si);
   const Graph& g = network.graph;
   if (!hydrostatic.acts()) return network;
   if (g.x.empty())
@@ -55,7 +46,7 @@ network::BoundedGraph make_graph_network(const Configuration& c,
   return network;
 }
 
-void add_weight(const Graph& g, const hemodynamics::Hydrostatic& hydrostatic, std::vector<double>& pressure) {
+void add_weight(const Graph& g, const Hydrostatic& hydrostatic, std::vector<double>& pressure) {
   if (!hydrostatic.acts()) return;
   for (std::size_t j = 0; j < g.junctions; ++j) pressure[j] += hydrostatic.pressure(g.x[j], g.y[j], g.z[j]);
 }
@@ -70,15 +61,14 @@ std::array<double, 2> lumen_of(const Graph& g) {
   return {volume, surface};
 }
 
-double highest_reynolds_number(const Graph& g, const hemodynamics::GraphFlow& flow,
-                               const hemodynamics::VesselMechanics& mechanics,
+double highest_reynolds_number(const Graph& g, const GraphFlow& flow, const VesselMechanics& mechanics,
                                std::span<const double> haematocrit) {
   double highest = 0;
   for (std::size_t v = 0; v < g.vessels(); ++v) {
     const double h = haematocrit.empty() ? mechanics.viscosity.haematocrit : haematocrit[v];
-    const double eta = hemodynamics::apparent_viscosity(mechanics.viscosity, g.radius[v], h);
-    highest = std::max(highest, hemodynamics::reynolds_number(g.radius[v], eta, flow.flow[v],
-                                                              mechanics.hydrostatic.density));
+    const double eta = apparent_viscosity(mechanics.viscosity, g.radius[v], h);
+    highest =
+        std::max(highest, reynolds_number(g.radius[v], eta, flow.flow[v], mechanics.hydrostatic.density));
   }
   return highest;
 }
@@ -93,21 +83,19 @@ std::array<double, 2> extremes_of(const std::vector<double>& pressure) {
   return extremes;
 }
 
-QueriedVessel describe_vessel(const Graph& g, const hemodynamics::GraphFlow& flow, std::uint32_t v,
-                              const hemodynamics::VesselMechanics& mechanics) {
-  QueriedVessel q{.name = {},
-                  .vessel = v,
-                  .kind = g.kind.empty() ? network::VesselKind::unknown : g.kind[v],
-                  .generation = g.generation.empty() ? -1 : g.generation[v],
-                  .radius = g.radius[v],
-                  .length = g.length[v],
-                  .wall_thickness = hemodynamics::wall_thickness(g, v, mechanics),
-                  .strength_factor = hemodynamics::wall_factors(g, v, mechanics).strength,
-                  .flow = flow.flow[v],
-                  .pressure_from = flow.pressure[g.from[v]],
-                  .pressure_to = flow.pressure[g.to[v]],
-                  .start = {},
-                  .end = {}};
+NetworkVessel describe_vessel(const Graph& g, const GraphFlow& flow, std::uint32_t v,
+                              const VesselMechanics& mechanics) {
+  NetworkVessel q;
+  q.vessel = v;
+  if (!g.kind.empty()) q.kind = g.kind[v];
+  if (!g.generation.empty()) q.generation = g.generation[v];
+  q.radius = g.radius[v];
+  q.length = g.length[v];
+  q.wall_thickness = wall_thickness(g, v, mechanics);
+  q.strength_factor = wall_factors(g, v, mechanics).strength;
+  q.flow = flow.flow[v];
+  q.pressure_from = flow.pressure[g.from[v]];
+  q.pressure_to = flow.pressure[g.to[v]];
   if (!g.x.empty()) {
     q.start = {g.x[g.from[v]], g.y[g.from[v]], g.z[g.from[v]]};
     q.end = {g.x[g.to[v]], g.y[g.to[v]], g.z[g.to[v]]};
@@ -115,7 +103,7 @@ QueriedVessel describe_vessel(const Graph& g, const hemodynamics::GraphFlow& flo
   return q;
 }
 
-std::vector<double> conductances(const Graph& graph, const hemodynamics::Viscosity& viscosity,
+std::vector<double> conductances(const Graph& graph, const Viscosity& viscosity,
                                  std::span<const double> haematocrit) {
   auto conductance = parallel::large_array<double>(graph.vessels());
   parallel::for_each_share(
@@ -127,31 +115,18 @@ std::vector<double> conductances(const Graph& graph, const hemodynamics::Viscosi
           if (graph.radius[v] != radius || own != h) {
             radius = graph.radius[v];
             h = own;
-            eta = hemodynamics::apparent_viscosity(viscosity, radius, h);
+            eta = apparent_viscosity(viscosity, radius, h);
           }
-          conductance[v] = 1 / hemodynamics::poiseuille_resistance(graph.radius[v], graph.length[v], eta);
+          conductance[v] = 1 / poiseuille_resistance(graph.radius[v], graph.length[v], eta);
         }
       });
   return conductance;
 }
 
-hemodynamics::GraphSolverOptions solver_options(const Configuration& c) {
-  using hemodynamics::GraphSolver;
-  hemodynamics::GraphSolverOptions options;
-  for (const GraphSolver solver :
-       {GraphSolver::automatic, GraphSolver::elimination, GraphSolver::ldlt,
-        GraphSolver::approximate_cholesky, GraphSolver::jacobi, GraphSolver::amg}) {
-    if (hemodynamics::name_of(solver) == c.network.solver) options.solver = solver;
-  }
-  options.imbalance = c.network.imbalance;
-  options.max_iterations = c.network.max_iterations;
-  return options;
-}
-
-std::uint32_t find_vessel(const Configuration& c, const Graph& graph, const std::string& name,
+std::uint32_t find_vessel(const FlowProblem& problem, const Graph& graph, const std::string& name,
                           const std::string& key) {
-  if (c.network.source == "tree")
-    return static_cast<std::uint32_t>(TreePair::id_of(name, c.tree.generations));
+  if (problem.network.source == "tree")
+    return static_cast<std::uint32_t>(TreePair::id_of(name, problem.tree.generations));
   if (!graph.vessel_name.empty()) {
     const auto found = std::find(graph.vessel_name.begin(), graph.vessel_name.end(), name);
     if (found != graph.vessel_name.end())
@@ -160,7 +135,7 @@ std::uint32_t find_vessel(const Configuration& c, const Graph& graph, const std:
     const auto number = static_cast<std::size_t>(std::stoul(name));
     if (number < graph.vessels()) return static_cast<std::uint32_t>(number);
   }
-  throw InputError("there is no vessel '" + name + "' in " + c.network.files.back(), key);
+  throw InputError("there is no vessel '" + name + "' in " + problem.network.files.back(), key);
 }
 
 std::vector<std::uint32_t> widest_vessels(const Graph& graph, std::size_t count) {
@@ -177,9 +152,4 @@ std::vector<std::uint32_t> widest_vessels(const Graph& graph, std::size_t count)
   return vessels;
 }
 
-std::size_t most_shown(const Configuration& c) {
-  const std::int64_t usual = c.network.source == "tree" ? 20000 : 5000000;
-  return static_cast<std::size_t>(c.network.shown_vessels.value_or(usual));
-}
-
-}  // namespace rhexis::app
+}  // namespace rhexis::hemodynamics

@@ -1,11 +1,11 @@
-#include "app/network_tables.hpp"
+#include "studies/flow/network_tables.hpp"
 
 #include <fmt/format.h>
 
 #include <iterator>
 #include <limits>
 
-namespace rhexis::app {
+namespace rhexis::studies {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -61,16 +61,17 @@ std::string histogram_table(const hemodynamics::TreeStatistics& s) {
   return table;
 }
 
-std::string screening_table(const NetworkSolution& s) {
+std::string screening_table(const screening::ScreenedNetwork& s) {
   std::string table =
       "rank,vessel,id,kind,generation,alike,risk,radius_m,wall_thickness_m,strength_factor,pressure_from_Pa,"
       "pressure_to_Pa\n";
   for (std::size_t i = 0; i < s.at_risk.size(); ++i) {
-    const screening::RankedVessel& ranked = s.screening->top[i];
-    const QueriedVessel& q = s.at_risk[i];
+    const screening::RankedVessel& ranked = s.screening.top[i];
+    const hemodynamics::NetworkVessel& q = s.at_risk[i];
     fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{:.0f},{},{},{},{},{},{}\n", i + 1,
-                   quoted(q.name), q.vessel, kind_text(q.kind), q.generation, ranked.alike, ranked.risk,
-                   q.radius, q.wall_thickness, q.strength_factor, q.pressure_from, q.pressure_to);
+                   quoted(q.name), q.vessel, network::name_of(q.kind), q.generation, ranked.alike,
+                   ranked.risk, q.radius, q.wall_thickness, q.strength_factor, q.pressure_from,
+                   q.pressure_to);
   }
   return table;
 }
@@ -93,14 +94,14 @@ std::string risk_table(const screening::Screening& s) {
   return table;
 }
 
-std::string vessel_table(const std::vector<VesselRow>& rows) {
+std::string vessel_table(const std::vector<hemodynamics::VesselTableRow>& rows) {
   std::string table =
       "vessel,from,to,radius_m,length_m,haematocrit,flow_m3_s,pressure_from_Pa,pressure_to_Pa\n";
-  for (const VesselRow& r : rows) {
+  for (const hemodynamics::VesselTableRow& r : rows) {
     fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{},{},{}\n", quoted(r.name), quoted(r.from),
                    quoted(r.to), r.radius, r.length, r.haematocrit, r.flow, r.pressure_from, r.pressure_to);
   }
   return table;
 }
 
-}  // namespace rhexis::app
+}  // namespace rhexis::studies

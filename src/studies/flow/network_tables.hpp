@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "app/network_tier.hpp"
+#include "hemodynamics/steady/flow_solver.hpp"
+#include "studies/screening/network_screening.hpp"
 
-namespace rhexis::app {
+namespace rhexis::studies {
 
 /// A name as a CSV field.
 std::string quoted(const std::string& text);
@@ -18,12 +19,12 @@ std::string generation_table(const hemodynamics::TreeStatistics& s);
 /// A row for each bin that is not empty: generation, kind, quantity, edges, vessels.
 std::string histogram_table(const hemodynamics::TreeStatistics& s);
 
-/// The table of the vessels at highest risk, as CSV; the solution has been screened.
-std::string screening_table(const NetworkSolution& solution);
+/// The table of the vessels at highest risk, as CSV.
+std::string screening_table(const screening::ScreenedNetwork& screened);
 /// How many vessels of every generation have what risk.
 std::string risk_table(const screening::Screening& screening);
 
 /// A row for each vessel of an explicit network.
-std::string vessel_table(const std::vector<VesselRow>& rows);
+std::string vessel_table(const std::vector<hemodynamics::VesselTableRow>& rows);
 
-}  // namespace rhexis::app
+}  // namespace rhexis::studies
