@@ -132,14 +132,16 @@ void check(const Configuration& c, parallel::Communicator comm) {
     solved.network.statistics = false;
     runtime::Console console(comm.is_root(), false);
     console.line("Solving the network, which says what the wall and its load are:");
-    NetworkCoupling coupling(solved, comm, console);
+    NetworkCoupling coupling(solved, nullptr, comm, console);
     if (coupling.at_rest()) {
       console.line(
           fmt::format("{} is valid. No vessel's risk is above cascade.risk_limit = {}: no wall is simulated.",
                       c.file, text(c.coupling.risk_limit)));
       return;
     }
-    check_wall(coupling.hand_over(), comm, [&](runtime::Console& to) { coupling.print_header(to); });
+    const Configuration with_wall = coupling.with_wall();
+    check_wall(with_wall, comm,
+               [&](runtime::Console& to) { coupling.print_header(to, with_wall.time_step); });
   } else {
     check_wall(c, comm, {});
   }

@@ -9,7 +9,6 @@
 #include "core/parameter.hpp"
 #include "coupling/parameters.hpp"
 #include "hemodynamics/parameters.hpp"
-#include "hemodynamics/steady/ruptured_network.hpp"
 #include "input/reader.hpp"
 #include "insitu/parameters.hpp"
 #include "network/parameters.hpp"
@@ -22,12 +21,6 @@
 #include "studies/screening/parameters.hpp"
 
 namespace rhexis::app {
-
-/// What the earlier events of a cascade left: no input.
-struct Aftermath {
-  std::vector<hemodynamics::VesselFailure> injuries;
-  std::vector<std::uint32_t> settled;  ///< vessels that were simulated, whether they ruptured or held
-};
 
 struct Configuration {
   std::string file;
@@ -42,7 +35,6 @@ struct Configuration {
   output::Parameters output;
   insitu::Parameters insitu;
 
-  Aftermath aftermath;
   network::TreeRules tree;  ///< where network.source = "tree"
 
   bool is_coupled() const { return model == "coupled"; }

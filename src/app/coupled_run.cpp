@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/cascade_state.hpp"
 #include "app/checkpoint_input.hpp"
 #include "app/folder_plan.hpp"
 #include "app/network_coupling.hpp"
@@ -44,7 +43,7 @@ class CascadeRun {
     open_cascade_folder();
     if (!state_.events.empty()) prepare_next_event();
     solve_network();
-    if (!network_->at_rest() && !all_simulated()) c_ = network_->hand_over();
+    if (!network_->at_rest() && !all_simulated()) c_ = network_->with_wall();
     if (restarts_within_event_) prepare_interrupted_event();
     const runtime::Ending ending = session_.recorded([&] {
       session_.start_pictures();
@@ -67,7 +66,7 @@ class CascadeRun {
         write_table();
         if (!goes_on()) break;
         try {
-          c_ = network_->hand_over();
+          c_ = network_->with_wall();
         } catch (const InputError& error) {
           obstacle = fmt::format("event {} cannot be simulated: {}", state_.events.size() + 1, error.what());
         }
@@ -92,9 +91,9 @@ class CascadeRun {
   /// The events so far, and whether another one was going on.
   void read_checkpoint() {
     output::CheckpointReader file(session_.options().restart, comm_);
-    if (!file.holds(cascade_name))
+    if (!file.holds(studies::cascade_name))
       file.refuse("the checkpoint is not of a cascade, as cascade.events asks for");
-    state_ = read_cascade(file);
+    state_ = studies::read_cascade(file);
     restarts_within_event_ = file.holds(step_name);
     if (restarts_within_event_ && all_simulated()) {
       file.refuse(fmt::format("the checkpoint is of event {}, but cascade.events = {}",
@@ -109,15 +108,13 @@ class CascadeRun {
   /// The configuration of the event after those so far.
   void prepare_next_event() {
     c_ = first_;
-    c_.aftermath = state_.aftermath;
     c_.coupling.vessel = "screening";
   }
 
   /// With what the events so far left.
   void solve_network() {
     network_.reset();
-    network_.emplace(c_, comm_, session_.console());
-    network_->set_cascade(&state_);
+    network_.emplace(c_, &state_, comm_, session_.console());
     if (!state_.events.empty()) note_what_followed();
   }
 
@@ -156,32 +153,32 @@ class CascadeRun {
 
   runtime::Ending simulate() {
     const auto number = state_.events.size() + 1;
-    const hemodynamics::NetworkVessel vessel = network_->vessel();
+    const hemodynamics::NetworkVessel vessel = network_->chosen();
     session_.console().line(
         fmt::format("Event {}: vessel {}, risk {:.3f}", number, vessel.name, network_->risk()));
     session_.pictures()->steps_before = state_.steps_before;
     session_.pictures()->seconds_before = state_.elapsed;
-    const double pressure = network_->intact_pressure();
+    const double pressure = network_->coupled().intact_pressure();
     std::unique_ptr<VesselRun> run = std::exchange(interrupted_event_, nullptr);
     if (!run) run = std::make_unique<VesselRun>(c_, event_options({}), comm_, &*network_);
     const runtime::Ending ending = run->run();
     session_.spent().add(run->spent());
     const Results& r = run->results();
-    CascadeEvent event{.vessel = vessel,
-                       .risk = network_->risk(),
-                       .net_pressure = pressure,
-                       .ruptured = r.rupture_onset_s.has_value(),
-                       .rupture_onset = r.rupture_onset_s,
-                       .opening = r.opening_area_m2.value_or(0),
-                       .inflow_before = network_->inflow()};
+    studies::CascadeEvent event{.vessel = vessel,
+                                .risk = network_->risk(),
+                                .net_pressure = pressure,
+                                .ruptured = r.rupture_onset_s.has_value(),
+                                .rupture_onset = r.rupture_onset_s,
+                                .opening = r.opening_area_m2.value_or(0),
+                                .inflow_before = network_->flow().inflow};
     // An interrupted wall might have torn yet.
     if (ending.interrupted() && !r.rupture_onset_s) event.ruptured.reset();
     if (r.rupture_onset_s) event.time = state_.elapsed + *r.rupture_onset_s;
-    state_.aftermath.settled.push_back(static_cast<std::uint32_t>(vessel.vessel));
+    state_.simulated.push_back(static_cast<std::uint32_t>(vessel.vessel));
     if (r.rupture_onset_s) {
-      state_.aftermath.injuries.push_back({static_cast<std::uint32_t>(vessel.vessel),
-                                           c_.coupling.outcome == "occlusion",
-                                           network_->orifice(event.opening)});
+      state_.failures.push_back({static_cast<std::uint32_t>(vessel.vessel),
+                                 c_.coupling.outcome == "occlusion",
+                                 network_->coupled().orifice(event.opening)});
     }
     state_.elapsed += r.simulated_s.value_or(0);
     state_.steps_before += r.steps.value_or(0) + 1;
@@ -193,17 +190,18 @@ class CascadeRun {
   /// must know the same: throws InputError.
   void note_what_followed() {
     parallel::on_root<InputError>(comm_, [&] {
-      CascadeEvent& event = state_.events.back();
-      if (event.inflow_after && !alike(*event.inflow_after, network_->inflow())) {
+      studies::CascadeEvent& event = state_.events.back();
+      if (event.inflow_after && !coupling::agree(*event.inflow_after, network_->flow().inflow)) {
         throw InputError(fmt::format(
             "{}: the network is not as it was: after event {} its inflow was {} m3/s, and now is {} m3/s",
             session_.options().restart.string(), state_.events.size(), *event.inflow_after,
-            network_->inflow()));
+            network_->flow().inflow));
       }
-      event.inflow_after = network_->inflow();
-      if (event.ruptured == true && !network_->leaks().empty()) event.leak = network_->leaks().back();
+      event.inflow_after = network_->flow().inflow;
+      if (event.ruptured == true && !network_->flow().leaks.empty())
+        event.leak = network_->flow().leaks.back();
       if (network_->risk() <= 0) return;
-      event.next_vessel = network_->vessel().name;
+      event.next_vessel = network_->chosen().name;
       event.next_risk = network_->risk();
     });
   }
@@ -214,7 +212,7 @@ class CascadeRun {
     output::CheckpointWriter file(session_.folder().claim(event_checkpoint_name(state_.events.size())),
                                   runtime::version(), comm_);
     write_input(file, c_);
-    save_cascade(state_, comm_, file);
+    studies::save_cascade(state_, comm_, file);
     file.close();
   }
 
@@ -222,8 +220,8 @@ class CascadeRun {
   void write_table() {
     results_.simulated_s = state_.elapsed;
     results_.cascade = nlohmann::ordered_json::array();
-    for (const CascadeEvent& event : state_.events)
-      results_.cascade.push_back(to_json(event, results_.cascade.size() + 1));
+    for (const studies::CascadeEvent& event : state_.events)
+      results_.cascade.push_back(studies::to_json(event, results_.cascade.size() + 1));
     const std::filesystem::path path = session_.folder().claim("cascade.csv");
     parallel::on_root<RunError>(comm_, [&] {
       const auto columns = {"event",
@@ -279,8 +277,8 @@ class CascadeRun {
   parallel::Communicator comm_;
   Results results_;
   runtime::RunSession session_;
-  Configuration first_;  ///< as it was read, without warnings
-  CascadeState state_;   ///< of the first rank; elsewhere without what only that knows of vessels
+  Configuration first_;          ///< as it was read, without warnings
+  studies::CascadeState state_;  ///< of the first rank; elsewhere without what only that knows of vessels
   std::optional<NetworkCoupling> network_;
   bool restarts_within_event_ = false;
   std::unique_ptr<VesselRun> interrupted_event_;
@@ -295,9 +293,8 @@ runtime::Ending run_coupled(Configuration configuration, const runtime::RunOptio
   runtime::print_title(console, configuration.title, configuration.file);
   runtime::RunOptions with_folder = options;
   with_folder.folder.emplace(folder_plan(configuration, options), comm);
-  NetworkCoupling coupling(configuration, comm, console);
-  const Configuration& with_vessel = coupling.hand_over();
-  return VesselRun(with_vessel, with_folder, comm, &coupling).run();
+  NetworkCoupling coupling(configuration, nullptr, comm, console);
+  return VesselRun(coupling.with_wall(), with_folder, comm, &coupling).run();
 }
 
 }  // namespace rhexis::app

@@ -7,12 +7,12 @@
 
 namespace rhexis::app {
 
-hemodynamics::FlowProblem flow_problem(const Configuration& c) {
+hemodynamics::FlowProblem flow_problem(const Configuration& c, const studies::CascadeState* cascade) {
   return {.network = c.network,
           .tree = c.tree,
           .blood = c.hemodynamics,
           .to_si = input::to_si,
-          .failures = c.aftermath.injuries};
+          .failures = cascade != nullptr ? cascade->failures : std::vector<hemodynamics::VesselFailure>{}};
 }
 
 screening::Criterion screening_criterion(const Configuration& c) {
@@ -22,18 +22,19 @@ screening::Criterion screening_criterion(const Configuration& c) {
   return criterion;
 }
 
-studies::ScreeningPlan screening_plan(const Configuration& c) {
-  return {screening_criterion(c), static_cast<std::size_t>(c.screening.top), c.aftermath.settled};
+studies::ScreeningPlan screening_plan(const Configuration& c, const studies::CascadeState* cascade) {
+  return {screening_criterion(c), static_cast<std::size_t>(c.screening.top),
+          cascade != nullptr ? cascade->simulated : std::vector<std::uint32_t>{}};
 }
 
 studies::NetworkFilesPlan network_files_plan(const Configuration& c) {
   return {c.title, runtime::version(), output::formats_of(c.output), c.network.vtp};
 }
 
-std::unique_ptr<hemodynamics::FlowSolver> prepared_solver(const Configuration& c,
-                                                          parallel::Communicator comm) {
+std::unique_ptr<hemodynamics::FlowSolver> prepared_solver(const Configuration& c, parallel::Communicator comm,
+                                                          const studies::CascadeState* cascade) {
   try {
-    return hemodynamics::prepared_solver(flow_problem(c), comm);
+    return hemodynamics::prepared_solver(flow_problem(c, cascade), comm);
   } catch (const InputError& error) {
     throw input::located(error, c.resolved);
   }

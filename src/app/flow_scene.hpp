@@ -4,20 +4,22 @@
 #include <memory>
 
 #include "app/configuration.hpp"
+#include "studies/cascade/cascade_state.hpp"
 #include "studies/flow/network_files.hpp"
 #include "studies/flow/solved_network.hpp"
 
 namespace rhexis::app {
 
-/// With what the earlier events of a cascade left.
-hemodynamics::FlowProblem flow_problem(const Configuration& c);
+/// `cascade`: null, or what the events so far left of the network.
+hemodynamics::FlowProblem flow_problem(const Configuration& c,
+                                       const studies::CascadeState* cascade = nullptr);
 screening::Criterion screening_criterion(const Configuration& c);
-studies::ScreeningPlan screening_plan(const Configuration& c);
+studies::ScreeningPlan screening_plan(const Configuration& c, const studies::CascadeState* cascade = nullptr);
 studies::NetworkFilesPlan network_files_plan(const Configuration& c);
 
 /// hemodynamics::prepared_solver and checked_solver; InputErrors are complete with place.
-std::unique_ptr<hemodynamics::FlowSolver> prepared_solver(const Configuration& c,
-                                                          parallel::Communicator comm);
+std::unique_ptr<hemodynamics::FlowSolver> prepared_solver(const Configuration& c, parallel::Communicator comm,
+                                                          const studies::CascadeState* cascade = nullptr);
 std::unique_ptr<hemodynamics::FlowSolver> checked_solver(const Configuration& c, parallel::Communicator comm);
 
 }  // namespace rhexis::app

@@ -50,7 +50,7 @@ void VesselRun::for_each_number(peridynamics::Body::Saved& saved, const Visit& v
   visit("load_speed", saved.load_speed, 0, largest);
   for (std::size_t k = 0; k < 3; ++k) visit(fmt::format("frame_{}", axes[k]), saved.frame[k]);
   // Venting only lowers the load; a network may also raise it, where the lumen widens.
-  visit("pressure_share", vent_now_, 0, coupling_ != nullptr && coupling_->two_way() ? largest : 1);
+  visit("pressure_share", vent_now_, 0, coupling_ != nullptr && coupling_->coupled().two_way() ? largest : 1);
   visit("least_pressure_share", least_vent_, 0, 1);
   visit("opening_area", open_area_, 0, largest);
   visit("resistance_factor", resistance_factor_, 0, largest);
@@ -108,7 +108,7 @@ void VesselRun::read_checkpoint() {
   output::CheckpointReader file(session_.options().restart, comm_);
   if (!file.holds(step_name))
     file.refuse("the checkpoint is of a cascade between two events; only that cascade goes on from it");
-  if (coupling_ == nullptr && file.holds(coupled_vessel_name))
+  if (coupling_ == nullptr && file.holds(coupling::coupled_vessel_name))
     file.refuse("the checkpoint is of a vessel that is coupled with a network");
   std::int64_t step = 0;
   file.read(step_name, step, 0);

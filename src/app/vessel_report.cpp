@@ -57,7 +57,7 @@ void VesselRun::print_header() {
                                               quantity(peridynamics::highest_pressure(v), "Pa"),
                                               peridynamics::describe_schedule(v), v.layer, v.venting));
   if (coupling_ != nullptr) {
-    coupling_->print_header(session_.console());
+    coupling_->print_header(session_.console(), c_.time_step);
   } else {
     print_risk(session_.console(), v);
   }

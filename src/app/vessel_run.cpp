@@ -74,7 +74,7 @@ runtime::Ending VesselRun::run() {
     warn_of_odd_openings();
     if (series_) series_->finish();
     if (coupling_ != nullptr) {
-      coupling_->end(time_at(step_));
+      coupling_->coupled().count_leak(time_at(step_));
       results_.coupling = coupling_->results();
     }
     session_.finish_pictures();
@@ -145,7 +145,7 @@ runtime::Work VesselRun::work() const {
   return {.bond_evaluations = start_bond_evaluations_ + body_->bond_evaluations(),
           .flop_per_evaluation = 0.5 * peridynamics::flop_per_bond,
           .traffic = body_->traffic(),
-          .network_flop = coupling_ != nullptr ? coupling_->flop() : std::nullopt};
+          .network_flop = coupling_ != nullptr ? coupling_->flow().flop : std::nullopt};
 }
 
 bool VesselRun::output_due(long step) const {
@@ -179,8 +179,8 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     const peridynamics::Totals t = body_->totals();
     // Beside a hole particles have lost about half of their bonds.
     open_area_ = t.max_damage >= peridynamics::rupture_damage ? gauge_->area() : 0;
-    const double leak = coupling_ != nullptr && coupling_->two_way()
-                            ? coupling_->leak()
+    const double leak = coupling_ != nullptr && coupling_->coupled().two_way()
+                            ? coupling_->coupled().state().leak
                             : peridynamics::orifice_flow(c_.vessel.discharge_coefficient, open_area_,
                                                          pressure, c_.vessel.blood_density);
     if (coupling_ != nullptr) results_.coupling = coupling_->results();
@@ -221,7 +221,7 @@ void VesselRun::show(bool with_output, bool with_pictures) {
     throw;
   } catch (const RunError&) {
     // A restart exchanges anew at its first step.
-    const bool has_exchanged = coupling_ != nullptr && coupling_->due(step_);
+    const bool has_exchanged = coupling_ != nullptr && coupling_->coupled().due(step_);
     try {
       if (!has_exchanged) write_checkpoint(step_);
       if (!last_checkpoint_.empty())
@@ -317,8 +317,8 @@ void VesselRun::vent(long step) {
 /// Takes over what the network says of the load: of its size from the next step on, as with venting, so that
 /// the work done stays exact.
 void VesselRun::take_load() {
-  if (c_.vessel.pressure > 0) vent_next_ = coupling_->pressure() / c_.vessel.pressure;
-  body_->set_axial_profile(coupling_->profile(lattice_.rows, lattice_.row_spacing));
+  if (c_.vessel.pressure > 0) vent_next_ = coupling_->coupled().pressure() / c_.vessel.pressure;
+  body_->set_axial_profile(coupling_->coupled().profile(lattice_.rows, lattice_.row_spacing));
 }
 
 /// Tells the network of lumen and opening. From the onset of rupture the lumen counts as it was then:
@@ -326,12 +326,12 @@ void VesselRun::take_load() {
 void VesselRun::exchange(long step) {
   if (!results_.rupture_onset_s) resistance_factor_ = lumen_->resistance_factor();
   if (results_.rupture_onset_s) open_area_ = gauge_->area();
-  coupling_->exchange({.time_s = time_at(step),
-                       .schedule = peridynamics::schedule_share(c_.vessel, time_at(step)),
-                       .opening = open_area_,
-                       .resistance_factor = resistance_factor_});
+  coupling_->coupled().exchange({.time_s = time_at(step),
+                                 .schedule = peridynamics::schedule_share(c_.vessel, time_at(step)),
+                                 .opening = open_area_,
+                                 .resistance_factor = resistance_factor_});
   take_load();
-  const double reynolds = coupling_->highest_reynolds();
+  const double reynolds = coupling_->coupled().state().highest_reynolds;
   if (results_.rupture_onset_s && reynolds > hemodynamics::laminar_reynolds_number && !turbulence_was_said_) {
     turbulence_was_said_ = true;
     session_.warn(fmt::format(
@@ -350,7 +350,7 @@ void VesselRun::time_loop() {
         c_.output.checkpoint_every > 0 && step_ > first_step_ && step_ % c_.output.checkpoint_every == 0;
     // First of all, because a launcher that was interrupted may not leave time for more.
     if (signal_ != 0 || saves) write_checkpoint(step_);
-    if (coupling_ != nullptr && coupling_->due(step_)) {
+    if (coupling_ != nullptr && coupling_->coupled().due(step_)) {
       const Stopwatch watch(session_.spent().solve);
       exchange(step_);
     }

@@ -25,7 +25,7 @@ MAY_INCLUDE = {
     "peridynamics": {"parallel"},
     "network": {"parallel"},
     "hemodynamics": {"network", "parallel"},
-    "coupling": {"parallel", "network", "hemodynamics", "peridynamics"},
+    "coupling": {"parallel", "network", "hemodynamics", "peridynamics", "output"},
     "studies": {"parallel", "network", "hemodynamics", "peridynamics", "output"},
     "output": {"parallel"},
     "insitu": {"parallel"},

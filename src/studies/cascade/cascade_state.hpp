@@ -1,4 +1,4 @@
-/// What a cascade has come to between two of its events, as it goes on from it and as it is stored.
+/// The state of a cascade between two of its events, as it goes on from it and as it is stored.
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "app/configuration.hpp"
 #include "hemodynamics/steady/flow_solver.hpp"
+#include "hemodynamics/steady/ruptured_network.hpp"
 #include "output/checkpoint.hpp"
 #include "parallel/communicator.hpp"
 
-namespace rhexis::app {
+namespace rhexis::studies {
 
 /// One vessel that was simulated. What followed is known once the network has been solved with what it left.
 struct CascadeEvent {
@@ -31,9 +31,10 @@ struct CascadeEvent {
 
 struct CascadeState {
   std::vector<CascadeEvent> events;
-  Aftermath aftermath;
-  double elapsed = 0;             ///< s, simulated in all events
-  std::int64_t steps_before = 0;  ///< of all events, for the numbers of pictures
+  std::vector<hemodynamics::VesselFailure> failures;  ///< of the vessels that ruptured
+  std::vector<std::uint32_t> simulated;  ///< numbers of the vessels, whether they ruptured or held
+  double elapsed = 0;                    ///< s, simulated in all events
+  std::int64_t steps_before = 0;         ///< of all events, for the numbers of pictures
 };
 
 /// Event `number`, from 1 on, as run.json has it.
@@ -47,4 +48,4 @@ void save_cascade(const CascadeState& state, parallel::Communicator comm, output
 /// The same on every rank. Collective; throws InputError that names the file.
 CascadeState read_cascade(output::CheckpointReader& file);
 
-}  // namespace rhexis::app
+}  // namespace rhexis::studies

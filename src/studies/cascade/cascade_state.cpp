@@ -1,4 +1,4 @@
-#include "app/cascade_state.hpp"
+#include "studies/cascade/cascade_state.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "studies/flow/network_record.hpp"
 
-namespace rhexis::app {
+namespace rhexis::studies {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -62,14 +62,14 @@ CascadeEvent event_of(const Json& json) {
           .next_risk = optional_at<double>(json, "next_risk")};
 }
 
-Json to_json(const hemodynamics::VesselFailure& injury) {
-  return {{"vessel", injury.vessel},
-          {"occluded", injury.occluded},
-          {"orifice_strength", injury.orifice.strength},
-          {"outside_pressure_Pa", injury.orifice.outside_pressure}};
+Json to_json(const hemodynamics::VesselFailure& failure) {
+  return {{"vessel", failure.vessel},
+          {"occluded", failure.occluded},
+          {"orifice_strength", failure.orifice.strength},
+          {"outside_pressure_Pa", failure.orifice.outside_pressure}};
 }
 
-hemodynamics::VesselFailure injury_of(const Json& json) {
+hemodynamics::VesselFailure failure_of(const Json& json) {
   return {json.at("vessel").get<std::uint32_t>(),
           json.at("occluded").get<bool>(),
           {json.at("orifice_strength").get<double>(), json.at("outside_pressure_Pa").get<double>()}};
@@ -78,11 +78,11 @@ hemodynamics::VesselFailure injury_of(const Json& json) {
 CascadeState state_of(const Json& json) {
   CascadeState state;
   for (const Json& event : json.at("events")) state.events.push_back(event_of(event));
-  for (const Json& injury : json.at("injuries")) state.aftermath.injuries.push_back(injury_of(injury));
-  state.aftermath.settled = json.at("settled").get<std::vector<std::uint32_t>>();
+  for (const Json& failure : json.at("injuries")) state.failures.push_back(failure_of(failure));
+  state.simulated = json.at("settled").get<std::vector<std::uint32_t>>();
   state.elapsed = json.at("elapsed_s").get<double>();
   state.steps_before = json.at("steps_before").get<std::int64_t>();
-  if (state.elapsed < 0 || state.steps_before < 0 || state.aftermath.settled.size() != state.events.size())
+  if (state.elapsed < 0 || state.steps_before < 0 || state.simulated.size() != state.events.size())
     throw std::runtime_error("its numbers contradict each other");
   return state;
 }
@@ -91,7 +91,7 @@ CascadeState state_of(const Json& json) {
 
 nlohmann::ordered_json to_json(const CascadeEvent& e, std::size_t number) {
   Json json{{"event", number}, {"time_s", or_null(e.time)}, {"risk", e.risk}};
-  json.update(studies::to_json(e.vessel));
+  json.update(to_json(e.vessel));
   json.update({{"net_pressure_Pa", e.net_pressure},
                {"ruptured", or_null(e.ruptured)},
                {"rupture_onset_s", or_null(e.rupture_onset)},
@@ -107,13 +107,13 @@ nlohmann::ordered_json to_json(const CascadeEvent& e, std::size_t number) {
 void save_cascade(const CascadeState& state, parallel::Communicator comm, output::CheckpointWriter& file) {
   Json json{{"events", Json::array()},
             {"injuries", Json::array()},
-            {"settled", state.aftermath.settled},
+            {"settled", state.simulated},
             {"elapsed_s", state.elapsed},
             {"steps_before", state.steps_before}};
   for (std::size_t i = 0; i < state.events.size(); ++i)
     json["events"].push_back(to_json(state.events[i], i + 1));
-  for (const hemodynamics::VesselFailure& injury : state.aftermath.injuries)
-    json["injuries"].push_back(to_json(injury));
+  for (const hemodynamics::VesselFailure& failure : state.failures)
+    json["injuries"].push_back(to_json(failure));
   file.write(cascade_name, comm.broadcast(json.dump()));
 }
 
@@ -127,4 +127,4 @@ CascadeState read_cascade(output::CheckpointReader& file) {
   }
 }
 
-}  // namespace rhexis::app
+}  // namespace rhexis::studies
