@@ -81,7 +81,7 @@ BondFamilies find_families(const Lattice& lattice) {
     });
     const auto first = families.bonds.begin() + families.first.back();
     const auto later = std::find_if(first, families.bonds.end(), [&](const Bond& bond) {
-      return leads_later(bond, static_cast<std::int32_t>(i));
+      return is_forward(bond, static_cast<std::int32_t>(i));
     });
     std::sort(later, families.bonds.end(), [](const Bond& a, const Bond& b) {
       return a.row_offset != b.row_offset ? a.row_offset > b.row_offset : a.other < b.other;

@@ -21,16 +21,16 @@ struct Bond {
   double weight = 1;  ///< factor on force and energy, see surface_correction.hpp
 };
 
-/// A bond of column `own` leads to a later column, or up in its own.
-inline bool leads_later(const Bond& bond, std::int32_t own) {
+/// A forward bond of column `own` leads to a later column, or up in its own column.
+inline bool is_forward(const Bond& bond, std::int32_t own) {
   return bond.other > own || (bond.other == own && bond.row_offset > 0);
 }
 
 /// Bonds of all columns, those of column c at [first[c], first[c + 1]), in an order that no partition
-/// changes, so that sums do not depend on one: first those that lead to earlier columns or down, by (other,
-/// row_offset); then those that lead later, by (row_offset, other), row_offset falling. It is the order in
-/// which contributions arrive where columns, one after another and each from its first row on, add to
-/// the sums of those (column_body_parts.hpp), and there no column is added to twice in a row.
+/// changes, so that sums do not depend on the partition: first backward bonds, by (other, row_offset); then
+/// forward bonds, by (row_offset, other), with row_offset falling. Contributions arrive in this order where
+/// columns are done one after another, each from its first row on, and forward bonds add to the sums of their
+/// other ends (engine/bond_forces.hpp); so ordered, no column is added to twice in a row.
 struct BondFamilies {
   std::vector<std::int64_t> first;
   std::vector<Bond> bonds;
@@ -45,7 +45,7 @@ struct BondFamilies {
   }
 };
 
-/// Families that several bodies and checks of one wall read: they are what a fine wall has most of.
+/// Families that several bodies and checks of one wall share, because they take most of a fine wall's memory.
 using SharedFamilies = std::shared_ptr<const BondFamilies>;
 
 /// Eq. (1)'s families, |xi| <= horizon, all weights 1.
@@ -57,10 +57,10 @@ std::int64_t count_bonds(const Lattice& lattice, const BondFamilies& families, b
 /// Largest number of bonds that one particle has, ends taken into account.
 std::int64_t largest_family(const Lattice& lattice, const BondFamilies& families, bool periodic);
 
-/// What a cut along a tube's wall meets, the mean of all cuts between columns that follow each other.
+/// A cut along a tube's wall between columns that follow each other; the mean of all such cuts.
 struct ColumnCut {
-  double columns;  ///< on one side that have bonds across it
-  double bonds;    ///< across it, of a row
+  double columns;  ///< columns on one side that have bonds across the cut
+  double bonds;    ///< bonds of one row across the cut
 };
 ColumnCut mean_column_cut(const BondFamilies& families);
 

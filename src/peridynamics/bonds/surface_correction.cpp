@@ -50,8 +50,8 @@ void correct_volume(const Lattice& lattice, BondFamilies& families) {
   set_weights(families, [&](std::size_t i, std::size_t j, const Bond&) { return 2 / (share[i] + share[j]); });
 }
 
-/// Of the integral of V n n n n |xi| over a whole family, the component n_r n_r n_h n_h; n_r^4 has three
-/// times as much. In m4, for unit bond constant.
+/// The component n_r n_r n_h n_h of the integral of V n n n n |xi| over a whole family, in m4, for unit bond
+/// constant; the component n_r^4 is three times as large.
 double whole_moment(double horizon) {
   return std::numbers::pi * std::pow(horizon, 4) / 15;
 }

@@ -18,11 +18,13 @@
 #include <span>
 
 #include "parallel/partition.hpp"
+#include "peridynamics/engine/following_frame.hpp"
 
 namespace rhexis::peridynamics {
 
-/// Properties of particles by place, where the wall is not uniform; padded as displacement is. A bond has the
-/// sum of its ends' halves: the same digits from both, so both still break it in the same step.
+/// Properties of particles by place, where the wall is not uniform; padded as displacement is. A bond's
+/// property is the sum of its ends' halves: the same digits from both ends, so that both break the bond in
+/// the same step.
 template <class Real>
 struct LocalProperties {
   const Real* half_stretch = nullptr;    ///< half of the critical stretch
@@ -45,7 +47,7 @@ struct BondConstants {
 struct BondRun {
   std::int32_t first, past;
   bool both;
-  int ends;  ///< of each bond that count here: both of those that lead later, whoever evaluates them
+  int ends;  ///< of each bond that count here: 2 for forward bonds, whoever evaluates them, else 0
 };
 
 /// A bond of a family that broke in some rows.
@@ -54,17 +56,18 @@ struct BrokenBond {
   std::uint16_t rows;
 };
 
-/// One block of one column: what the bonds read, the bits they may clear, and the sums they add to.
+/// One block of 16 rows of one column: what its bonds read, the bits they may clear, and the sums they add
+/// to.
 template <class Real>
 struct BlockView {
   const Real* u[3];  ///< padded displacement, at the block's first row
   std::span<const BondConstants<Real>> bonds;
   std::uint16_t* intact;             ///< one word per bond, bit k: bond of row k exists and is unbroken
-  std::array<Real*, 4> sums = {};    ///< of force and, when observing, energy, padded, at the first row
-  Real breaking_t;                   ///< of a uniform wall
-  LocalProperties<Real> local = {};  ///< of one that is not, at the block's first row
-  const Real* pressure = nullptr;    ///< of a state-based law, padded, at the block's first row
-  BrokenBond* broken = nullptr;      ///< room for those that break and are evaluated for both ends
+  std::array<Real*, 4> sums = {};    ///< force x, y, z and, when observing, energy, at the block's first row
+  Real breaking_t;                   ///< t at which bonds of a uniform wall break
+  LocalProperties<Real> local = {};  ///< properties of a wall that is not uniform, at the block's first row
+  const Real* pressure = nullptr;    ///< pressure of a state-based law, at the block's first row
+  BrokenBond* broken = nullptr;      ///< room for bonds that break and are evaluated for both ends
 };
 
 /// What happened in a block.
@@ -75,12 +78,9 @@ struct BlockEvents {
 };
 
 /// Floating-point operations of one bond that pulls, for both of its ends: 6 for eta and y, 11 for t, 13 for
-/// g(t), 1 for k, 12 for the forces (a fused multiply-add counts as two, the approximate root as one). What
-/// is done twice, where one thread does not have both ends, counts once.
+/// g(t), 1 for k, 12 for the forces (a fused multiply-add counts as two, the approximate root as one). A bond
+/// that is evaluated twice, because no thread has both of its ends, counts once.
 inline constexpr double flop_per_bond = 43;
-
-/// Period of wrapped displacements, in spacings: twice as long as the ends of any bond can be moved apart.
-inline constexpr double wrap_period = 256;
 
 namespace detail {
 
@@ -185,7 +185,7 @@ HWY_INLINE std::uint16_t clear(D d, hn::Mask<D> fail, std::size_t lane, std::uin
   return broken;
 }
 
-/// What the rows from `lane` on of a block have summed so far.
+/// Sums of the rows from `lane` on of a block so far.
 template <class D>
 struct Sums {
   hn::Vec<D> x, y, z, energy;

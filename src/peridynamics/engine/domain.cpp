@@ -6,8 +6,6 @@
 namespace rhexis::peridynamics {
 namespace {
 
-constexpr std::int64_t block_rows = parallel::block_rows;
-
 /// Bits [low, high) of a word.
 std::uint16_t bit_range(std::int64_t low, std::int64_t high) {
   low = std::clamp<std::int64_t>(low, 0, block_rows);

@@ -14,28 +14,54 @@
 
 namespace rhexis::peridynamics {
 
-/// Memory of padded arrays (what bonds read): one slot of `stride` values per column, owned columns first,
-/// then halo columns; row `first_row` of a column stands at `front` in its slot, with halo rows before and
-/// after it.
+using parallel::block_rows;
+
+/// One block of 16 rows of one owned column.
+struct RowBlock {
+  std::int32_t slot, block;
+};
+
+/// Slots number the columns of this rank: owned columns first, then those of the halo.
+///
+/// Two kinds of arrays are indexed here. Arrays of owned particles hold column after column, each from its
+/// first owned row on. Padded arrays (what bonds read) hold one slot of `stride` values per column; the first
+/// owned row stands at `front` in its slot, with halo rows before and after it.
 class Domain {
  public:
   Domain(const Lattice& lattice, const BondFamilies& families, const parallel::Partition& partition, int rank,
          bool periodic);
 
   const PointLayout& layout() const { return layout_; }
-  std::int64_t blocks() const {
-    return (layout_.row_count + parallel::block_rows - 1) / parallel::block_rows;
-  }
+  bool periodic() const { return periodic_; }
+  /// Blocks of 16 rows of each owned column.
+  std::int64_t blocks() const { return (layout_.row_count + block_rows - 1) / block_rows; }
   std::size_t stride() const { return stride_; }
   std::size_t padded_size() const { return stride_ * slot_column_.size(); }
 
-  /// Offset in a padded array of a local column's first owned row. Local columns: owned first, then halo.
-  std::size_t padded(std::size_t slot) const { return slot * stride_ + front_; }
-  /// Columns that are owned or in the halo, by slot.
+  /// Global numbers of the owned and halo columns, by slot.
   std::span<const std::int32_t> columns() const { return slot_column_; }
+  /// Global number of an owned column.
+  std::size_t global_column(std::int32_t slot) const {
+    return static_cast<std::size_t>(layout_.first_column + slot);
+  }
   /// Slot of a global column that is owned or in the halo.
   std::size_t slot(std::int32_t column) const { return static_cast<std::size_t>(slot_of_[column]); }
-  /// Rows of block `b` on this rank (16, or fewer in the last).
+
+  /// Index in padded arrays of the first owned row of `slot`.
+  std::size_t padded(std::size_t slot) const { return slot * stride_ + front_; }
+  /// Index in padded arrays of the first row of a block.
+  std::size_t padded(RowBlock b) const {
+    return padded(static_cast<std::size_t>(b.slot)) + static_cast<std::size_t>(b.block * block_rows);
+  }
+  /// Index of a block's first row in arrays of owned particles.
+  std::size_t first_particle(RowBlock b) const {
+    return static_cast<std::size_t>(b.slot * layout_.row_count + b.block * block_rows);
+  }
+  /// Number of a block among all owned ones, column after column.
+  std::size_t number(RowBlock b) const {
+    return static_cast<std::size_t>(std::int64_t{b.slot} * blocks() + b.block);
+  }
+  /// Owned rows of local block `b`: 16, or fewer in the last one.
   int rows_in(std::int64_t block) const;
 
   /// One bit per row of local block `b`: the row's partner `row_offset` rows away exists.

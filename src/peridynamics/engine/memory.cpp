@@ -71,8 +71,8 @@ struct Run {
   double count() const { return std::max(0.0, last - first + 1); }
 };
 
-/// Of the row at height `y`, the nodes in the wall, left and right of the lumen; in spacings, `shift` the
-/// place of node 0.
+/// The nodes in the wall of the lattice row at height `y`, left and right of the lumen; lengths in spacings,
+/// `shift` is the place of node 0.
 std::array<Run, 2> nodes_in_wall(double y, double inner, double outer, double shift) {
   const auto half_chord = [&](double radius) { return std::sqrt(std::max(0.0, radius * radius - y * y)); };
   const double out = half_chord(outer);
@@ -119,7 +119,8 @@ void count_lattice(const Parameters& p, FamilyCount whole, WallSize& size) {
   size.neighbours = all.columns / std::max(1.0, size.columns);
 }
 
-/// What a body of `ranks` ranks takes, without families: see column_body.hpp for the arrays.
+/// The memory of a body of `ranks` ranks, without its families: see the parts of column_body.hpp for the
+/// arrays.
 struct BodyMemory {
   double arrays = 0;    ///< bytes
   double observed = 0;  ///< bytes, once its fields have been observed

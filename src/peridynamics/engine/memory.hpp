@@ -15,7 +15,8 @@ struct WallSize {
   double particles() const { return columns * rows; }
 };
 
-/// Of resolved parameters; counted ring by ring or row by row of the cross-section, so exact (but for
+/// The size of the wall that resolved parameters describe; counted ring by ring or row by row of the
+/// cross-section, so exact (but for
 /// lattices of more than 1e5 rows, which no machine holds: an upper bound).
 WallSize wall_size(const Parameters& p);
 

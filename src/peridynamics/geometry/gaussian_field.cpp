@@ -45,7 +45,7 @@ double even(std::uint32_t high, std::uint32_t low) {
 GaussianField::GaussianField(std::int64_t seed, double correlation_length)
     : seed_(static_cast<std::uint64_t>(seed)), cells_per_m_(std::numbers::sqrt2 / correlation_length) {}
 
-/// By Box and Muller: two independent normal numbers of a cell.
+/// Two independent normal numbers of a cell, by the method of Box and Muller.
 GaussianField::Pair GaussianField::noise(std::int64_t i, std::int64_t j, std::int64_t k) const {
   constexpr std::uint32_t stream = 1;  // networks draw from 0
   const r123::Philox4x32::ctr_type bits = r123::Philox4x32()(
@@ -60,7 +60,7 @@ std::vector<GaussianField::Pair> GaussianField::along(double x, double y, std::s
   std::vector<Pair> values(z.size());
   if (z.empty()) return values;
   const Taps in_x = taps_at(x * cells_per_m_), in_y = taps_at(y * cells_per_m_);
-  // What all of these points share: per layer of cells, the noise weighted over x and y.
+  // All of these points share the noise weighted over x and y, one number per layer of cells.
   const auto [lowest, highest] = std::ranges::minmax(z);
   const std::int64_t first = taps_at(lowest * cells_per_m_).first;
   std::vector<Pair> layers(static_cast<std::size_t>(taps_at(highest * cells_per_m_).first - first + taps));

@@ -20,7 +20,7 @@
 
 namespace rhexis::peridynamics {
 
-/// What a particle's properties are multiplied by.
+/// Factors on a particle's properties.
 struct LocalFactors {
   double critical_stretch = 1, stiffness = 1;
 };
@@ -28,7 +28,7 @@ struct LocalFactors {
 class Heterogeneity {
  public:
   Heterogeneity() = default;  ///< a uniform wall
-  /// Of resolved parameters.
+  /// The wall that resolved parameters describe.
   explicit Heterogeneity(const Parameters& p);
 
   bool uniform() const { return uniform_; }

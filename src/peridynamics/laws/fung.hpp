@@ -48,7 +48,7 @@ struct Fung {
            energy_ratio(critical_stretch);
   }
 
-  /// Its inverse: with s of PMB, exp(a s0^2) - 1 = a s^2.
+  /// s0 from G0: with s of PMB, exp(a s0^2) - 1 = a s^2.
   double critical_stretch(double young_modulus, double horizon, double energy_release_rate) const {
     const double s = Pmb::critical_stretch(young_modulus, horizon, energy_release_rate);
     return std::sqrt(std::log1p(exponent * s * s) / exponent);

@@ -14,8 +14,8 @@ namespace rhexis::peridynamics {
 /// where a field is missing or is no number, a pressure is negative, or times do not increase.
 std::vector<CurvePoint> schedule_table(const std::string& file, std::string text, const ToSi& to_si);
 
-/// What tells one text from another: FNV-1a of 64 bits (Fowler, Noll, Vo), "fnv1a:" and 16 digits of base 16.
-/// Against slips, not against forgers.
+/// A checksum that tells one text from another: FNV-1a of 64 bits (Fowler, Noll, Vo), as "fnv1a:" and 16
+/// hexadecimal digits. It protects against slips, not against forgers.
 std::string checksum(const std::string& text);
 
 }  // namespace rhexis::peridynamics

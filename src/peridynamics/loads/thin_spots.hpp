@@ -17,8 +17,8 @@ namespace rhexis::peridynamics {
 class ThinSpots {
  public:
   ThinSpots() = default;  ///< nowhere
-  /// Of resolved parameters; `layer` is that of the whole wall. Throws InputError where nothing is left to
-  /// load.
+  /// The spots of resolved parameters; `layer` is that of the whole wall. Throws InputError where no particle
+  /// is left to bear the load.
   ThinSpots(const Parameters& p, const Lattice& lattice, const PressureLayer& layer);
 
   bool none() const { return absent_ == 0; }

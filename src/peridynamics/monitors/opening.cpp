@@ -34,7 +34,7 @@ double widest_gap(const CrossSection& section, const ThinSpots& thin_spots, doub
   return widest;
 }
 
-/// Of every row.
+/// The widest gap of each row, rad.
 std::vector<double> widest_gaps(const Lattice& lattice, const ThinSpots& thin_spots) {
   const auto rows = static_cast<std::size_t>(lattice.rows);
   if (thin_spots.none()) return std::vector<double>(rows, widest_gap(lattice.section, thin_spots, 0));
@@ -87,7 +87,7 @@ OpeningGauge::OpeningGauge(const Lattice& lattice, const Body& body, parallel::C
                                                         static_cast<double>(sectors_))));
 }
 
-/// What is known of each row from some of its particles.
+/// What some of a row's particles tell, for each row of the whole body.
 struct OpeningGauge::Rows {
   Rows(const OpeningGauge& gauge, std::size_t rows)
       : occupied(rows * gauge.bins_ / 64),

@@ -23,7 +23,7 @@ class ParticleSource final : public PointSource {
   const PointLayout& layout() const override { return body_->layout(); }
   std::span<const FieldInfo> fields() const override { return all_fields(); }
   FieldView positions() override;
-  /// Of the body at rest; valid until `positions` or the next moment.
+  /// Positions of the body at rest; valid until `positions` or the next moment.
   FieldView reference_positions();
   FieldView field(std::string_view name) override;
   std::vector<Annotation> annotations() const override { return annotations_; }

@@ -39,7 +39,7 @@ class Matrix {
 double dilatation_bound(const Lattice& lattice, const BondFamilies& families, bool periodic) {
   const double unit_volume = lattice.spacing * lattice.spacing * lattice.spacing;
   const double weighted_volume = Lps::weighted_volume(lattice.horizon / lattice.spacing);
-  // Of a bond, a_ij.
+  // a_ij of a bond.
   const auto share = [&](const Bond& bond) {
     return 3 * bond.weight * lattice.volume(static_cast<std::size_t>(bond.other)) / unit_volume /
            weighted_volume;

@@ -49,7 +49,7 @@ class Accelerations {
   }
 
  private:
-  /// Of the uniform wall; as few rows as hold a family and the shortest waves along the axis.
+  /// A periodic piece of the uniform wall, of as few rows as hold a family and the shortest axial waves.
   static BodySetup periodic_piece(BodySetup setup) {
     setup.lattice.rows = 2 * setup.families->reach + 2;
     setup.ends = EndCondition::axial_periodic;

@@ -73,8 +73,8 @@ Matrix stiffness(const BodySetup& setup) {
   return matrix;
 }
 
-/// What the dilatations of a state-based law add: c m V_i times the second derivative of their energy, as in
-/// laws/lps.hpp.
+/// The stiffness that the dilatations of a state-based law add: c m V_i times the second derivative of their
+/// energy, as in laws/lps.hpp.
 Matrix dilatation_stiffness(const BodySetup& setup, const Lps& law) {
   const Lattice& lattice = setup.lattice;
   const auto columns = static_cast<Eigen::Index>(lattice.section.size());

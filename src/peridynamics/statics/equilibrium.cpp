@@ -15,8 +15,8 @@ using Field = std::array<std::vector<double>, 3>;
 
 constexpr double unbreakable = 1e6;  ///< critical stretch
 
-/// What of the velocity is turned towards the force at first, by what factor less each step, and for how many
-/// steps not: the values of Bitzek et al.
+/// Bitzek et al.'s values: the share of the velocity that is turned towards the force at first, the factor by
+/// which it falls each step, and the number of steps before it begins to fall.
 constexpr double first_turn = 0.1, turn_decay = 0.99;
 constexpr int steps_before_decay = 5;
 

@@ -19,8 +19,8 @@ struct Equilibrium {
   std::int64_t bond_evaluations = 0;  ///< directed, on this rank
 };
 
-/// To a residual of at most `tolerance`. Throws RunError where that is not reached in `most_steps`.
-/// Collective.
+/// Finds the equilibrium under `pressure` (Pa) to a residual of at most `tolerance`. Throws RunError where
+/// that is not reached in `most_steps`. Collective.
 Equilibrium find_equilibrium(BodySetup setup, double pressure, double tolerance, parallel::Communicator comm,
                              long most_steps = 20000);
 

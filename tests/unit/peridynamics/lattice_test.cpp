@@ -96,9 +96,9 @@ TEST(BondFamilies, EarlierBondsComeByColumnAndLaterOnesByRow) {
     const std::span<const Bond> family = f.of(i);
     for (std::size_t b = 1; b < family.size(); ++b) {
       const Bond &a = family[b - 1], &next = family[b];
-      if (!leads_later(next, own)) {
+      if (!is_forward(next, own)) {
         ASSERT_LT(std::pair(a.other, a.row_offset), std::pair(next.other, next.row_offset));
-      } else if (leads_later(a, own)) {
+      } else if (is_forward(a, own)) {
         ASSERT_LT(std::pair(-a.row_offset, a.other), std::pair(-next.row_offset, next.other));
       }
     }
