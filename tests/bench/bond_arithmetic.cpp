@@ -11,7 +11,6 @@
 namespace rhexis::bench {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
 using namespace peridynamics;
 
 constexpr std::size_t family = 32;  ///< bonds, of one particle and its partners, which lie side by side
@@ -21,33 +20,32 @@ constexpr std::size_t family = 32;  ///< bonds, of one particle and its partners
 template <class D, class Real>
 HWY_INLINE detail::Sums<D> add_bonds(D d, const BlockView<Real>& block, int rounds) {
   const Pmb law;
-  const detail::Ends<false, D, Real> ends(d, block, 0);
-  const detail::BreakingTest<false, D, Real> test(d, block, 0);
+  const detail::Ends<false, D, Real> ends(block, 0);
+  const detail::BreakingTest<false, D, Real> test(block, 0);
   constexpr std::size_t at_once = 4;
-  detail::Sums<D> f{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)}, other[at_once];
-  for (auto& o : other) o = f;
+  const detail::Sums<D> nothing{Real{0}, Real{0}, Real{0}, Real{0}};
+  detail::Sums<D> f = nothing, other[at_once] = {nothing, nothing, nothing, nothing};
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t b = 0; b < family; b += at_once) {
       for (std::size_t i = 0; i < at_once; ++i) {
         const BondConstants<Real>& bond = block.bonds[b + i];
         std::uint16_t& word = block.intact[b + i];
-        const auto [y_x, y_y, y_z, t] = ends.deformed(d, bond);
-        detail::clear(d, test.fails(d, law, bond, t), 0, word);
-        const auto k = hn::IfThenElseZero(detail::lanes_of(d, word, 0),
-                                          hn::Mul(law.force_factor(d, t), hn::Set(d, bond.weight)));
-        f.x = hn::MulAdd(k, y_x, f.x);
-        f.y = hn::MulAdd(k, y_y, f.y);
-        f.z = hn::MulAdd(k, y_z, f.z);
-        other[i].x = hn::NegMulAdd(k, y_x, other[i].x);
-        other[i].y = hn::NegMulAdd(k, y_y, other[i].y);
-        other[i].z = hn::NegMulAdd(k, y_z, other[i].z);
+        const auto [y_x, y_y, y_z, t] = ends.deformed(bond);
+        detail::clear(d, test.fails(bond, t), 0, word);
+        const auto k = where(detail::lanes_of(d, word, 0), law.force_factor(t) * bond.weight);
+        f.x = multiply_add(k, y_x, f.x);
+        f.y = multiply_add(k, y_y, f.y);
+        f.z = multiply_add(k, y_z, f.z);
+        other[i].x = negative_multiply_add(k, y_x, other[i].x);
+        other[i].y = negative_multiply_add(k, y_y, other[i].y);
+        other[i].z = negative_multiply_add(k, y_z, other[i].z);
       }
     }
   }
   for (const auto& o : other) {
-    f.x = hn::Add(f.x, o.x);
-    f.y = hn::Add(f.y, o.y);
-    f.z = hn::Add(f.z, o.z);
+    f.x = f.x + o.x;
+    f.y = f.y + o.y;
+    f.z = f.z + o.z;
   }
   return f;
 }
@@ -78,7 +76,7 @@ double bond_arithmetic_rate(int threads) {
     const BlockView<Real> block{
         .u = {u.get(), u.get(), u.get()}, .bonds = bonds, .intact = intact, .breaking_t = Real{1}};
     const auto f = add_bonds(d, block, rounds);
-    [[maybe_unused]] const volatile Real needed = hn::GetLane(hn::Add(f.x, hn::Add(f.y, f.z)));
+    [[maybe_unused]] const volatile Real needed = hn::GetLane((f.x + (f.y + f.z)).vector);
     return static_cast<double>(rounds) * static_cast<double>(family * lanes);
   });
 }

@@ -1,24 +1,23 @@
 // One bond's law on one lane, for tests from a table of stretches.
 #pragma once
 
-#include <hwy/highway.h>
-
 #include <vector>
+
+#include "peridynamics/laws/numbers.hpp"
 
 namespace rhexis::test {
 
+/// A law's factors as the kernel finds them, in a vector of one lane.
 template <class Law, class Real>
 Real force_factor(const Law& law, Real t) {
-  namespace hn = hwy::HWY_NAMESPACE;
-  const hn::CappedTag<Real, 1> d;
-  return hn::GetLane(law.force_factor(d, hn::Set(d, t)));
+  using X = peridynamics::Lanes<hwy::HWY_NAMESPACE::CappedTag<Real, 1>>;
+  return hwy::HWY_NAMESPACE::GetLane(law.force_factor(X(t)).vector);
 }
 
 template <class Law, class Real>
 Real energy_factor(const Law& law, Real t) {
-  namespace hn = hwy::HWY_NAMESPACE;
-  const hn::CappedTag<Real, 1> d;
-  return hn::GetLane(law.energy_factor(d, hn::Set(d, t)));
+  using X = peridynamics::Lanes<hwy::HWY_NAMESPACE::CappedTag<Real, 1>>;
+  return hwy::HWY_NAMESPACE::GetLane(law.energy_factor(X(t)).vector);
 }
 
 /// t of a stretch s, in the precision of the kernel.

@@ -9,8 +9,6 @@
 /// cancellation.
 #pragma once
 
-#include <hwy/highway.h>
-
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -19,6 +17,7 @@
 
 #include "parallel/partition.hpp"
 #include "peridynamics/engine/following_frame.hpp"
+#include "peridynamics/laws/stretch.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -84,8 +83,6 @@ inline constexpr double flop_per_bond = 43;
 
 namespace detail {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 /// The mask whose bits are `word` >> first_lane.
 template <class D>
 HWY_INLINE hn::Mask<D> lanes_of(D d, const std::uint16_t& word, std::size_t first_lane) {
@@ -108,71 +105,67 @@ HWY_INLINE std::uint16_t bits_of(D d, hn::Mask<D> mask, std::size_t first_lane) 
 }
 
 /// A bond as it is now: y = xi + eta, t as in the opening comment.
-template <class V>
+template <class D>
 struct Deformed {
-  V y_x, y_y, y_z, t;
+  Lanes<D> y_x, y_y, y_z, t;
 };
 
 /// The rows from `lane` on of a block, one end of all their bonds. `wrapped`: displacements are known up to
 /// whole periods, so that they keep their digits however far fragments have flown.
 template <bool wrapped, class D, class Real>
 class Ends {
- public:
-  HWY_INLINE Ends(D d, const BlockView<Real>& block, std::size_t lane)
-      : u_{block.u[0] + lane, block.u[1] + lane, block.u[2] + lane},
-        u_x_(hn::LoadU(d, u_[0])),
-        u_y_(hn::LoadU(d, u_[1])),
-        u_z_(hn::LoadU(d, u_[2])) {}
+  using X = Lanes<D>;
 
-  HWY_INLINE Deformed<hn::Vec<D>> deformed(D d, const BondConstants<Real>& bond) const {
-    using V = hn::Vec<D>;
-    const V eta_x = apart(d, hn::LoadU(d, u_[0] + bond.offset), u_x_);
-    const V eta_y = apart(d, hn::LoadU(d, u_[1] + bond.offset), u_y_);
-    const V eta_z = apart(d, hn::LoadU(d, u_[2] + bond.offset), u_z_);
-    const V inverse = hn::Set(d, bond.inverse_length2);
-    const V t_x = hn::Mul(eta_x, hn::MulAdd(eta_x, inverse, hn::Set(d, bond.twice_xi[0])));
-    const V t_xy = hn::MulAdd(eta_y, hn::MulAdd(eta_y, inverse, hn::Set(d, bond.twice_xi[1])), t_x);
-    const V t = hn::MulAdd(eta_z, hn::MulAdd(eta_z, inverse, hn::Set(d, bond.twice_xi[2])), t_xy);
-    return {hn::Add(eta_x, hn::Set(d, bond.xi[0])), hn::Add(eta_y, hn::Set(d, bond.xi[1])),
-            hn::Add(eta_z, hn::Set(d, bond.xi[2])), t};
+ public:
+  HWY_INLINE Ends(const BlockView<Real>& block, std::size_t lane)
+      : u_{block.u[0] + lane, block.u[1] + lane, block.u[2] + lane},
+        u_x_(X::load(u_[0])),
+        u_y_(X::load(u_[1])),
+        u_z_(X::load(u_[2])) {}
+
+  HWY_INLINE Deformed<D> deformed(const BondConstants<Real>& bond) const {
+    const X eta_x = apart(X::load(u_[0] + bond.offset), u_x_);
+    const X eta_y = apart(X::load(u_[1] + bond.offset), u_y_);
+    const X eta_z = apart(X::load(u_[2] + bond.offset), u_z_);
+    const X inverse = bond.inverse_length2;
+    const X t_x = eta_x * multiply_add(eta_x, inverse, X(bond.twice_xi[0]));
+    const X t_xy = multiply_add(eta_y, multiply_add(eta_y, inverse, X(bond.twice_xi[1])), t_x);
+    const X t = multiply_add(eta_z, multiply_add(eta_z, inverse, X(bond.twice_xi[2])), t_xy);
+    return {eta_x + bond.xi[0], eta_y + bond.xi[1], eta_z + bond.xi[2], t};
   }
 
  private:
-  static HWY_INLINE hn::Vec<D> apart(D d, hn::Vec<D> there, hn::Vec<D> here) {
-    const hn::Vec<D> eta = hn::Sub(there, here);
+  static HWY_INLINE X apart(X there, X here) {
+    const X eta = there - here;
     if constexpr (!wrapped) return eta;
-    const hn::Vec<D> periods = hn::Round(hn::Mul(eta, hn::Set(d, Real(1 / wrap_period))));
-    return hn::NegMulAdd(periods, hn::Set(d, Real(wrap_period)), eta);
+    return negative_multiply_add(round(eta * Real(1 / wrap_period)), X(Real(wrap_period)), eta);
   }
 
   const Real* u_[3];
-  hn::Vec<D> u_x_, u_y_, u_z_;
+  X u_x_, u_y_, u_z_;
 };
 
 /// Eq. (5) for bonds of the rows from `lane` on of a block, uniform or by place.
 template <bool heterogeneous, class D, class Real>
 class BreakingTest {
+  using X = Lanes<D>;
+
  public:
-  HWY_INLINE BreakingTest(D d, const BlockView<Real>& block, std::size_t lane)
-      : uniform_t_(hn::Set(d, block.breaking_t)), half_stretch_(hn::Zero(d)) {
+  HWY_INLINE BreakingTest(const BlockView<Real>& block, std::size_t lane)
+      : uniform_t_(block.breaking_t), half_stretch_(Real{0}) {
     if constexpr (heterogeneous) {
       there_ = block.local.half_stretch + lane;
-      half_stretch_ = hn::LoadU(d, there_);
+      half_stretch_ = X::load(there_);
     }
   }
 
-  template <class Law>
-  HWY_INLINE hn::Mask<D> fails(D d, const Law law, const BondConstants<Real>& bond, hn::Vec<D> t) const {
-    if constexpr (heterogeneous) {
-      const auto stretch = hn::Add(half_stretch_, hn::LoadU(d, there_ + bond.offset));
-      return hn::Ge(t, law.breaking_t(d, stretch));
-    } else {
-      return hn::Ge(t, uniform_t_);
-    }
+  HWY_INLINE hn::Mask<D> fails(const BondConstants<Real>& bond, X t) const {
+    if constexpr (!heterogeneous) return t >= uniform_t_;
+    return t >= t_of_stretch(half_stretch_ + X::load(there_ + bond.offset));
   }
 
  private:
-  hn::Vec<D> uniform_t_, half_stretch_;
+  X uniform_t_, half_stretch_;
   const Real* there_ = nullptr;
 };
 
@@ -188,19 +181,31 @@ HWY_INLINE std::uint16_t clear(D d, hn::Mask<D> fail, std::size_t lane, std::uin
 /// Sums of the rows from `lane` on of a block so far.
 template <class D>
 struct Sums {
-  hn::Vec<D> x, y, z, energy;
+  Lanes<D> x, y, z, energy;
 };
+
+/// Adds `change` to the numbers at `place`.
+template <class D, class Real>
+HWY_INLINE void add_at(Real* place, Lanes<D> change) {
+  (change + Lanes<D>::load(place)).store(place);
+}
+
+/// Subtracts k y from the numbers at `place`.
+template <class D, class Real>
+HWY_INLINE void subtract_product_at(Real* place, Lanes<D> k, Lanes<D> y) {
+  negative_multiply_add(k, y, Lanes<D>::load(place)).store(place);
+}
 
 /// Adds the bonds of a run, those `both` to the sums of their other ends too.
 template <bool both, bool observing, bool heterogeneous, bool wrapped, class D, class Law, class Real>
 HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::size_t lane, const BondRun run,
                         Sums<D>& sum, BlockEvents& events) {
-  using V = hn::Vec<D>;
-  const Ends<wrapped, D, Real> ends(d, block, lane);
-  const BreakingTest<heterogeneous, D, Real> test(d, block, lane);
-  V half_stiffness = hn::Zero(d), pressure = hn::Zero(d);
-  if constexpr (heterogeneous) half_stiffness = hn::LoadU(d, block.local.half_stiffness + lane);
-  if constexpr (Law::state_based) pressure = hn::LoadU(d, block.pressure + lane);
+  using X = Lanes<D>;
+  const Ends<wrapped, D, Real> ends(block, lane);
+  const BreakingTest<heterogeneous, D, Real> test(block, lane);
+  X half_stiffness = Real{0}, pressure = Real{0};
+  if constexpr (heterogeneous) half_stiffness = X::load(block.local.half_stiffness + lane);
+  if constexpr (Law::state_based) pressure = X::load(block.pressure + lane);
   Sums<D> f = sum;
   std::array<Real*, 4> others = {};
   for (std::size_t k = 0; both && k < (observing ? 4 : 3); ++k) others[k] = block.sums[k] + lane;
@@ -214,14 +219,14 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
   if (next_word == past) return;
   // Two bonds at a time, the next one's stretch beside this one's force: what a processor can hold of
   // instructions that wait for others is soon full, and one bond is a long chain of them.
-  Deformed<V> next = ends.deformed(d, *next_bond);
+  Deformed<D> next = ends.deformed(*next_bond);
   do {
     const BondConstants<Real>& bond = *next_bond++;
     std::uint16_t& word = *next_word++;
     const auto [y_x, y_y, y_z, t] = next;
     skip_broken();
-    if (next_word != past) next = ends.deformed(d, *next_bond);
-    const std::uint16_t broken = clear(d, test.fails(d, law, bond, t), lane, word);
+    if (next_word != past) next = ends.deformed(*next_bond);
+    const std::uint16_t broken = clear(d, test.fails(bond, t), lane, word);
     if (HWY_UNLIKELY(broken != 0)) {
       events.broken += std::popcount(broken);
       if constexpr (both) {
@@ -231,33 +236,32 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
     }
     const auto pulling = lanes_of(d, word, lane);
     [[maybe_unused]] const std::ptrdiff_t there = bond.offset;
-    const V one = hn::Set(d, Real{1});
-    const V g = law.force_factor(d, t);
-    V stiffness = one, pull = g;
+    const X g = law.force_factor(t);
+    X stiffness = Real{1}, pull = g;
     if constexpr (heterogeneous) {
-      stiffness = hn::Add(half_stiffness, hn::LoadU(d, block.local.half_stiffness + lane + there));
-      pull = hn::Mul(g, stiffness);
+      stiffness = half_stiffness + X::load(block.local.half_stiffness + lane + there);
+      pull = g * stiffness;
     }
     if constexpr (Law::state_based) {
-      const V pressures = hn::Add(pressure, hn::LoadU(d, block.pressure + lane + there));
-      pull = hn::MulAdd(pressures, hn::Sub(one, g), pull);  // 1 - g = 1 / (1 + s)
+      const X pressures = pressure + X::load(block.pressure + lane + there);
+      pull = multiply_add(pressures, 1 - g, pull);  // 1 - g = 1 / (1 + s)
     }
-    const V k = hn::IfThenElseZero(pulling, hn::Mul(pull, hn::Set(d, bond.weight)));
-    f.x = hn::MulAdd(k, y_x, f.x);
-    f.y = hn::MulAdd(k, y_y, f.y);
-    f.z = hn::MulAdd(k, y_z, f.z);
+    const X k = where(pulling, pull * bond.weight);
+    f.x = multiply_add(k, y_x, f.x);
+    f.y = multiply_add(k, y_y, f.y);
+    f.z = multiply_add(k, y_z, f.z);
     if constexpr (both) {
-      hn::StoreU(hn::NegMulAdd(k, y_x, hn::LoadU(d, others[0] + there)), d, others[0] + there);
-      hn::StoreU(hn::NegMulAdd(k, y_y, hn::LoadU(d, others[1] + there)), d, others[1] + there);
-      hn::StoreU(hn::NegMulAdd(k, y_z, hn::LoadU(d, others[2] + there)), d, others[2] + there);
+      subtract_product_at(others[0] + there, k, y_x);
+      subtract_product_at(others[1] + there, k, y_y);
+      subtract_product_at(others[2] + there, k, y_z);
     }
     if constexpr (observing) {
-      V w = hn::Mul(law.energy_factor(d, t), hn::Set(d, bond.energy_weight));
-      if constexpr (heterogeneous) w = hn::Mul(w, stiffness);
-      w = hn::IfThenElseZero(pulling, w);
-      f.energy = hn::Add(f.energy, w);
-      if constexpr (both) hn::StoreU(hn::Add(w, hn::LoadU(d, others[3] + there)), d, others[3] + there);
-      const auto crushed = hn::And(pulling, hn::Lt(t, hn::Set(d, Real(-0.75))));
+      X w = law.energy_factor(t) * bond.energy_weight;
+      if constexpr (heterogeneous) w = w * stiffness;
+      w = where(pulling, w);
+      f.energy = f.energy + w;
+      if constexpr (both) add_at(others[3] + there, w);
+      const auto crushed = hn::And(pulling, t < Real(-0.75));
       events.crushed += static_cast<int>(hn::CountTrue(d, crushed)) * run.ends;
     }
   } while (next_word != past);
@@ -273,12 +277,11 @@ HWY_INLINE void add_run(D d, const Law law, const BlockView<Real>& block, std::s
 template <bool observing, bool heterogeneous, bool wrapped, class Law, class Real>
 HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span<const BondRun> runs,
                           BlockEvents& events) {
-  namespace hn = hwy::HWY_NAMESPACE;
   using D = hn::CappedTag<Real, parallel::block_rows>;
   const D d;
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
     // Apart from the sums in memory: bonds of these rows with each other add to those meanwhile.
-    detail::Sums<D> sum{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    detail::Sums<D> sum{Real{0}, Real{0}, Real{0}, Real{0}};
     for (const BondRun run : runs) {
       if (run.both) {
         detail::add_run<true, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, events);
@@ -286,14 +289,10 @@ HWY_INLINE void sum_block(const Law law, const BlockView<Real>& block, std::span
         detail::add_run<false, observing, heterogeneous, wrapped>(d, law, block, lane, run, sum, events);
       }
     }
-    const auto add = [&](std::size_t k, hn::Vec<D> value) {
-      Real* const at = block.sums[k] + lane;
-      hn::StoreU(hn::Add(hn::LoadU(d, at), value), d, at);
-    };
-    add(0, sum.x);
-    add(1, sum.y);
-    add(2, sum.z);
-    if constexpr (observing) add(3, sum.energy);
+    detail::add_at(block.sums[0] + lane, sum.x);
+    detail::add_at(block.sums[1] + lane, sum.y);
+    detail::add_at(block.sums[2] + lane, sum.z);
+    if constexpr (observing) detail::add_at(block.sums[3] + lane, sum.energy);
   }
 }
 

@@ -51,7 +51,7 @@ class ColumnBody final : public Body {
         fracture_(law, setup_, domain_, bonds_, properties_) {
     if constexpr (Law::state_based) dilatation_.emplace(law, setup_, domain_, comm);
     kernel_input_.emplace(KernelInput<Real>{domain_, bonds_, properties_, displacement_,
-                                            static_cast<Real>(Law::breaking_t(setup_.critical_stretch)),
+                                            static_cast<Real>(t_of_stretch(setup_.critical_stretch)),
                                             dilatation_pressure()});
     forces_.emplace(law, *kernel_input_, bonds_, *setup_.families, threads_);
     for (int k = 0; k < 3; ++k) {

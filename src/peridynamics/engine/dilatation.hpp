@@ -75,9 +75,8 @@ class Dilatation {
                      ThreadEvents& events) {
     ExtensionSums<Real> sums;
     const BlockView<Real> view = input.view(b.slot, b.block * block_rows, bonds.words(b));
-    input.choose_kernel([&]<bool heterogeneous, bool wrapped>() {
-      sum_extensions<heterogeneous, wrapped>(law_, view, sums);
-    });
+    input.choose_kernel(
+        [&]<bool heterogeneous, bool wrapped>() { sum_extensions<heterogeneous, wrapped>(view, sums); });
     events.note_broken(b, sums.broken, bonds);
 
     const std::size_t column = domain_->global_column(b.slot);

@@ -15,31 +15,30 @@ struct ExtensionSums {
 };
 
 /// Breaks what is stretched too far, then sums the extensions of what is left.
-template <bool heterogeneous, bool wrapped, class Law, class Real>
-HWY_INLINE void sum_extensions(const Law law, const BlockView<Real>& block, ExtensionSums<Real>& sums) {
-  namespace hn = hwy::HWY_NAMESPACE;
-  const hn::CappedTag<Real, parallel::block_rows> d;
-  using V = hn::Vec<decltype(d)>;
+template <bool heterogeneous, bool wrapped, class Real>
+HWY_INLINE void sum_extensions(const BlockView<Real>& block, ExtensionSums<Real>& sums) {
+  using D = hn::CappedTag<Real, parallel::block_rows>;
+  using X = Lanes<D>;
+  const D d;
   for (std::size_t lane = 0; lane < static_cast<std::size_t>(parallel::block_rows); lane += hn::Lanes(d)) {
-    const detail::Ends<wrapped, decltype(d), Real> ends(d, block, lane);
-    const detail::BreakingTest<heterogeneous, decltype(d), Real> test(d, block, lane);
-    V intact = hn::Zero(d), lost = hn::Zero(d);
+    const detail::Ends<wrapped, D, Real> ends(block, lane);
+    const detail::BreakingTest<heterogeneous, D, Real> test(block, lane);
+    X intact = Real{0}, lost = Real{0};
     std::uint16_t* words = block.intact;
     for (const BondConstants<Real>& bond : block.bonds) {
       std::uint16_t& word = *words++;
       if (word == 0) continue;
-      const V t = ends.deformed(d, bond).t;
-      const V s = law.stretch(d, t, law.force_factor(d, t));
-      const V extension = hn::Mul(s, hn::Set(d, bond.energy_weight));
-      const std::uint16_t broken = detail::clear(d, test.fails(d, law, bond, t), lane, word);
+      const X t = ends.deformed(bond).t;
+      const X extension = stretch(t) * bond.energy_weight;
+      const std::uint16_t broken = detail::clear(d, test.fails(bond, t), lane, word);
       if (HWY_UNLIKELY(broken != 0)) {
         sums.broken += std::popcount(broken);
-        lost = hn::Add(lost, hn::IfThenElseZero(detail::lanes_of(d, broken, lane), extension));
+        lost = lost + where(detail::lanes_of(d, broken, lane), extension);
       }
-      intact = hn::Add(intact, hn::IfThenElseZero(detail::lanes_of(d, word, lane), extension));
+      intact = intact + where(detail::lanes_of(d, word, lane), extension);
     }
-    hn::Store(intact, d, sums.intact + lane);
-    hn::Store(lost, d, sums.lost + lane);
+    intact.store(sums.intact + lane);
+    lost.store(sums.lost + lane);
   }
 }
 

@@ -15,34 +15,42 @@
 ///   fung_exponent = 10
 #pragma once
 
-#include <hwy/contrib/math/math-inl.h>
-
 #include <cmath>
 
 #include "peridynamics/laws/pmb.hpp"
 
 namespace rhexis::peridynamics {
 
-struct Fung {
-  static constexpr bool state_based = false;
+struct Fung : Pmb {
   double exponent;  ///< a > 0
 
-  static double bond_constant(double young_modulus, double horizon) {
-    return Pmb::bond_constant(young_modulus, horizon);
-  }
-  static double breaking_t(double critical_stretch) { return Pmb::breaking_t(critical_stretch); }
-  template <class D, class V>
-  static HWY_INLINE V breaking_t(D d, V critical_stretch) {
-    return Pmb::breaking_t(d, critical_stretch);
+  explicit Fung(double a) : exponent(a) {}
+
+  /// exp(a s^2) s / (1 + s).
+  template <Number X>
+  HWY_INLINE X force_factor(X t) const {
+    const X g = stretch_over_length(t), s = stretch(t, g);
+    return g * exp(s * s * X(exponent));
   }
 
-  /// Energy of a bond of stretch s, relative to PMB's.
+  /// (exp(a s^2) - 1) / (2 a).
+  template <Number X>
+  HWY_INLINE X energy_factor(X t) const {
+    const X s = stretch(t);
+    return expm1(s * s * X(exponent)) * X(0.5 / exponent);
+  }
+
   double energy_ratio(double s) const {
     const double q = exponent * s * s;
     return std::expm1(q) / q;
   }
 
-  /// G0 (J/m2): PMB's times what breaking any bond takes more (Pmb::energy_release_rate).
+  double stiffness_ratio(double s) const {
+    const double q = exponent * s * s;
+    return (1 + 2 * q) * std::exp(q);
+  }
+
+  /// G0 (J/m2): PMB's times what breaking any bond takes more.
   double energy_release_rate(double young_modulus, double horizon, double critical_stretch) const {
     return Pmb::energy_release_rate(young_modulus, horizon, critical_stretch) *
            energy_ratio(critical_stretch);
@@ -52,36 +60,6 @@ struct Fung {
   double critical_stretch(double young_modulus, double horizon, double energy_release_rate) const {
     const double s = Pmb::critical_stretch(young_modulus, horizon, energy_release_rate);
     return std::sqrt(std::log1p(exponent * s * s) / exponent);
-  }
-
-  /// Largest stiffness df/ds of a bond within -s..s, relative to c: what the stable time step depends on.
-  double stiffness_ratio(double s) const {
-    const double q = exponent * s * s;
-    return (1 + 2 * q) * std::exp(q);
-  }
-
-  /// exp(a s^2) s / (1 + s), as Pmb::force_factor.
-  template <class D, class V>
-  HWY_INLINE V force_factor(D d, V t) const {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const V g = Pmb::force_factor(d, t);
-    return hn::Mul(g, hn::Exp(d, quadratic(d, Pmb::stretch(d, t, g))));
-  }
-
-  /// (exp(a s^2) - 1) / (2 a), as Pmb::energy_factor.
-  template <class D, class V>
-  HWY_INLINE V energy_factor(D d, V t) const {
-    namespace hn = hwy::HWY_NAMESPACE;
-    using Real = hn::TFromD<D>;
-    const V q = quadratic(d, Pmb::stretch(d, t, Pmb::force_factor(d, t)));
-    return hn::Mul(hn::Expm1(d, q), hn::Set(d, static_cast<Real>(0.5 / exponent)));
-  }
-
- private:
-  template <class D, class V>
-  HWY_INLINE V quadratic(D d, V s) const {
-    namespace hn = hwy::HWY_NAMESPACE;
-    return hn::Mul(hn::Mul(s, s), hn::Set(d, static_cast<hn::TFromD<D>>(exponent)));
   }
 };
 

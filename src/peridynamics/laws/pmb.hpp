@@ -1,24 +1,35 @@
 /// Prototype microelastic brittle (PMB) law, Sec. 3.1, Eqs. (2)-(5); Silling & Askari 2005.
 ///
-/// With t = (|xi + eta|^2 - |xi|^2) / |xi|^2 = (1 + s)^2 - 1, computed by the caller without cancellation,
-/// the pairwise force density of Eq. (2) is
+/// The pairwise force density of Eq. (2) is
 ///
-///   f = c s (xi + eta)/|xi + eta| = (c / |xi|) g(t) (xi + eta),   g(t) = s / (1 + s) = 1 - 1/sqrt(1 + t),
+///   f = c s (xi + eta)/|xi + eta| = (c / |xi|) g (xi + eta),   g = s / (1 + s),
 ///
-/// and a bond breaks, Eq. (5), when s >= s0, that is t >= (1 + s0)^2 - 1: no root is needed to test it.
+/// the micropotential w = c |xi| s^2 / 2 (J/m6), and a bond breaks, Eq. (5), when s >= s0.
 #pragma once
-
-#include <hwy/highway.h>
 
 #include <cmath>
 #include <numbers>
-#include <type_traits>
+
+#include "peridynamics/laws/stretch.hpp"
 
 namespace rhexis::peridynamics {
 
 struct Pmb {
   static constexpr bool state_based = false;
   static constexpr double poisson_ratio = 0.25;
+
+  /// g(t): force over c (xi + eta) / |xi|.
+  template <Number X>
+  static HWY_INLINE X force_factor(X t) {
+    return stretch_over_length(t);
+  }
+
+  /// Energy over c |xi|: s^2 / 2.
+  template <Number X>
+  static HWY_INLINE X energy_factor(X t) {
+    const X s = stretch(t);
+    return s * s * X(0.5);
+  }
 
   /// Eq. (4): c = 6 E / (pi delta^4 (1 - 2 nu)) with nu = 1/4, N/m6; E in Pa, delta in m.
   static double bond_constant(double young_modulus, double horizon) {
@@ -35,72 +46,15 @@ struct Pmb {
            std::pow(horizon, 5) / 10;
   }
 
-  /// s0 of a wall that takes G0 to tear: the inverse, sqrt(5 G0 / (6 E delta)).
+  /// s0 of a wall that takes G0 to tear: sqrt(5 G0 / (6 E delta)).
   static double critical_stretch(double young_modulus, double horizon, double energy_release_rate) {
     return std::sqrt(5 * energy_release_rate / (6 * young_modulus * horizon));
   }
 
-  /// Energy and stiffness of a bond relative to c |xi| s^2 / 2 and to c, which other laws may exceed.
-  static double energy_ratio(double) { return 1; }
-  static double stiffness_ratio(double) { return 1; }
-
-  /// Eq. (5) in terms of t.
-  static double breaking_t(double critical_stretch) { return critical_stretch * (2 + critical_stretch); }
-  /// The same, lane by lane.
-  template <class D, class V>
-  static HWY_INLINE V breaking_t(D d, V critical_stretch) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    return hn::Mul(critical_stretch, hn::Add(hn::Set(d, hn::TFromD<D>(2)), critical_stretch));
-  }
-
-  /// 1 + t. Within a thousandth of a bond's length, where t has lost the digits that this needs, it is held,
-  /// so that the force falls to zero with the distance instead of staying c: particles may lie on top of each
-  /// other.
-  template <class D, class V>
-  static HWY_INLINE V squared_length(D d, V t) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    using Real = hn::TFromD<D>;
-    return hn::Max(hn::Add(hn::Set(d, Real{1}), t), hn::Set(d, Real(1e-6)));
-  }
-
-  /// g(t), lane by lane, and exactly 0 for t = 0: a wall at rest pulls at nothing. In single precision with
-  /// AVX-512, whose approximate root of 1 is 1, the root is approximate and then corrected to third order by
-  /// its own residual, in a form that keeps the accuracy of small t: g is within 1e-6 |g| + 5e-11. Others'
-  /// approximate roots are coarser, and a root and a division cost them little more.
-  template <class D, class V>
-  static HWY_INLINE V force_factor(D d, V t) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    using Real = hn::TFromD<D>;
-    const V one = hn::Set(d, Real{1});
-    const V a = squared_length(d, t);
-    constexpr bool approximate = std::is_same_v<Real, float> && HWY_TARGET <= HWY_AVX3;
-    if constexpr (!approximate) {
-      return hn::Div(t, hn::Add(a, hn::Sqrt(a)));
-    } else {
-      const V r = hn::ApproximateReciprocalSqrt(a);
-      const V g = hn::Sub(one, r);
-      // residual e = 1 - a r^2 = (1 - r^2) - t r^2, fused;  1/sqrt(a) = r (1 + e/2 + 3/8 e^2 + ...)
-      const V e = hn::NegMulAdd(t, hn::Mul(r, r), hn::NegMulAdd(r, r, one));
-      const V series = hn::MulAdd(e, hn::Set(d, Real(0.375)), hn::Set(d, Real(0.5)));
-      return hn::NegMulAdd(hn::Mul(e, r), series, g);
-    }
-  }
-
-  /// s = g (1 + s), with g = force_factor(t) and 1 + s = (1 + t)(1 - g): no root, and as accurate as g.
-  template <class D, class V>
-  static HWY_INLINE V stretch(D d, V t, V g) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const V one = hn::Set(d, hn::TFromD<D>{1});
-    return hn::Mul(hn::Mul(g, squared_length(d, t)), hn::Sub(one, g));
-  }
-
-  /// s^2 / 2: the micropotential is w = c |xi| s^2 / 2 (J/m6).
-  template <class D, class V>
-  static HWY_INLINE V energy_factor(D d, V t) {
-    namespace hn = hwy::HWY_NAMESPACE;
-    const V s = stretch(d, t, force_factor(d, t));
-    return hn::Mul(hn::Mul(s, s), hn::Set(d, hn::TFromD<D>(0.5)));
-  }
+  /// Energy of a bond of stretch s relative to c |xi| s^2 / 2, which other laws may exceed.
+  static double energy_ratio(double /*s*/) { return 1; }
+  /// Largest stiffness df/ds of a bond within -s..s relative to c: what the stable time step depends on.
+  static double stiffness_ratio(double /*s*/) { return 1; }
 };
 
 }  // namespace rhexis::peridynamics

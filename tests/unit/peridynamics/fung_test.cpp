@@ -32,6 +32,7 @@ TEST(Fung, ForceFactorIsPmbsTimesTheExponential) {
       const double q = static_cast<double>(a * stretch * stretch);
       EXPECT_NEAR(test::force_factor(Fung{a}, t64) / exact(s_of(t64)), 1, 4e-15 * (1 + 4 * q))
           << "a = " << a << ", s = " << static_cast<double>(stretch);
+      EXPECT_NEAR(Fung{a}.force_factor(t64) / exact(s_of(t64)), 1, 4e-15 * (1 + 4 * q));
       // In single precision the error of s^2, 4e-6 at most, is multiplied by a.
       const auto t32 = t_of<float>(stretch);
       const double f = exact(s_of(t32));
@@ -50,6 +51,7 @@ TEST(Fung, EnergyHasNoCancellationAtSmallStretch) {
       const auto exact = [&](long double s) { return static_cast<double>(std::expm1(a * s * s) / (2 * a)); };
       const double q = static_cast<double>(a * stretch * stretch);
       EXPECT_NEAR(test::energy_factor(Fung{a}, t64) / exact(s_of(t64)), 1, 2e-14 * (1 + q));
+      EXPECT_NEAR(Fung{a}.energy_factor(t64) / exact(s_of(t64)), 1, 2e-14 * (1 + q));
       const double w = exact(s_of(t32));
       EXPECT_NEAR(test::energy_factor(Fung{a}, t32), w, 1e-5 * (1 + q) * w)
           << "a = " << a << ", s = " << static_cast<double>(stretch);

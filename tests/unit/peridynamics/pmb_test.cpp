@@ -1,4 +1,4 @@
-// Eqs. (2)-(5): the law alone, against closed forms in long double.
+// Eqs. (2)-(5): the law alone, as a scalar and as the kernel's vectors, against closed forms in long double.
 #include "peridynamics/laws/pmb.hpp"
 
 #include <gtest/gtest.h>
@@ -27,12 +27,15 @@ TEST(Pmb, ForceFactorIsStretchOverOnePlusStretch) {
     const long double exact64 = 1 - 1 / std::sqrt(1 + static_cast<long double>(t64));
     EXPECT_NEAR(test::force_factor(Pmb{}, t64) / static_cast<double>(exact64), 1, 4e-15)
         << "s = " << static_cast<double>(s);
+    EXPECT_EQ(Pmb::force_factor(t64), test::force_factor(Pmb{}, t64)) << "one law for scalars and vectors";
     // Single precision: as the header promises.
     const auto t32 = t_of<float>(s);
     const long double exact32 = 1 - 1 / std::sqrt(1 + static_cast<long double>(t32));
     EXPECT_NEAR(test::force_factor(Pmb{}, t32), static_cast<double>(exact32),
                 1e-6 * std::abs(static_cast<double>(exact32)) + 5e-11)
         << "s = " << static_cast<double>(s);
+    EXPECT_NEAR(Pmb::force_factor(t32), static_cast<double>(exact32),
+                1e-6 * std::abs(static_cast<double>(exact32)));
   }
 }
 
@@ -48,7 +51,7 @@ TEST(Pmb, ForceIsTheDerivativeOfTheEnergy) {
 }
 
 TEST(Pmb, BreakingTestEqualsTheStretchTest) {
-  EXPECT_DOUBLE_EQ(Pmb::breaking_t(0.25), 1.25 * 1.25 - 1);
+  EXPECT_DOUBLE_EQ(t_of_stretch(0.25), 1.25 * 1.25 - 1);
 }
 
 TEST(Pmb, EnergyReleaseRateIsTheEnergyOfTheBondsThatCrossAPlane) {
