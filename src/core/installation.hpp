@@ -29,7 +29,7 @@ inline std::filesystem::path installation_prefix() {
   if (is_library && *holder.dli_fname == '/') {
     if (const auto prefix = prefix_above(holder.dli_fname); !prefix.empty()) return prefix;
   }
-  const auto prefix = prefix_above("/proc/self/exe");
+  auto prefix = prefix_above("/proc/self/exe");
   return prefix.empty() ? std::filesystem::path(configured_prefix) : prefix;
 }
 

@@ -64,11 +64,11 @@ WallVariation::WallVariation(const WeaknessParameters& p)
       thickness_(p.thickness_spread, static_cast<std::uint64_t>(p.seed), Stream::wall_thickness),
       weak_{p.strength, p.thickness} {}
 
-void WallVariation::mark(VesselKind kind, std::vector<Range> marks) {
-  marks.insert(marks.end(), marks_[side(kind)].begin(), marks_[side(kind)].end());
-  std::sort(marks.begin(), marks.end(), [](const Range& a, const Range& b) { return a.first < b.first; });
+void WallVariation::mark(VesselKind kind, std::vector<Range> numbers) {
+  numbers.insert(numbers.end(), marks_[side(kind)].begin(), marks_[side(kind)].end());
+  std::sort(numbers.begin(), numbers.end(), [](const Range& a, const Range& b) { return a.first < b.first; });
   std::vector<Range> apart;
-  for (const Range& range : marks) {
+  for (const Range& range : numbers) {
     if (!apart.empty() && range.first <= apart.back().past) {
       apart.back().past = std::max(apart.back().past, range.past);
     } else {

@@ -17,10 +17,11 @@ void reserve_large(std::vector<T>& array, std::size_t count) {
 #ifdef MADV_HUGEPAGE
   constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
   const auto address = reinterpret_cast<std::uintptr_t>(array.data());
-  const std::uintptr_t begin = (address + page - 1) / page * page;
-  const std::uintptr_t end = (address + count * sizeof(T)) / page * page;
+  const std::uintptr_t to_page = (page - address % page) % page;  // bytes before the first whole page
+  const std::uintptr_t bytes = count * sizeof(T);
   // Only a hint: an answer of no changes nothing.
-  if (begin < end) (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  if (bytes > to_page)
+    (void)madvise(reinterpret_cast<char*>(array.data()) + to_page, bytes - to_page, MADV_HUGEPAGE);
 #endif
 }
 
