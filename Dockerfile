@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Rhexis in a container. From a clone:
 #   docker build -t rhexis .
 #   docker run --rm -v "$PWD/results:/rhexis/results" rhexis                       the main job

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Catalyst script: a network above the vessel of it whose wall is simulated, as coupled_<step>.png.
 
 A ring marks the vessel in the network. The views are those of network.py and vessel.py.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Catalyst script: the network at every output step, arteries and veins beside pressures, as network_<step>.png.
 
 Without paraview.simple, which takes half a second to load: see network_picture.py.

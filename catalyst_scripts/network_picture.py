@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The picture of a vascular network: arteries and veins beside the pressures in them, as in the paper's Fig. 6(a).
 
 Used by network.py while the program runs and by postprocessing/render_network.py on saved files.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Vessels as round-ended tubes, made for one camera that looks down the z axis, all of a class at once.
 
 A tube is a grid of points: rows along it (its two ends, and circles of the round caps beyond them), columns around

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What is written on a picture: text, colour bars, a scale bar, in pixels from the bottom left, y upwards."""
 
 import math

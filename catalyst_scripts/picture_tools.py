@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the pictures of vessels and of networks have in common: numbers of all ranks, colours, text, PNG files."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A plain Catalyst script to start from: copy it, change it, and name it in the input file.
 
     [insitu]

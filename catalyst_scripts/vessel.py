@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Catalyst script: the vessel at every output step, displacement beside damage, as vessel_<step>.png.
 
 Unlike template.py it does without paraview.simple, which takes half a second to load: see vessel_picture.py.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The picture of a vessel: displacement and damage of the same particles side by side, as in the paper's Fig. 1.
 
 Used by vessel.py while the program runs and by postprocessing/render_particles.py on saved files.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Which spheres of one size can be seen in a picture, found before anything is drawn (for drawing is what costs)."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Parallel HDF5, as hdf5::hdf5.
 block(PROPAGATE HDF5_C_LIBRARIES)
   # FindHDF5 asks HDF5's compiler wrapper, which on Debian 12 is a script that fails in a path with a space; then it

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # cmake --install: the program with its plugins, scripts, inputs and docs; and the libraries for find_package(rhexis).
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/rhexis)
 set(data ${RHEXIS_DATA_FOLDER})

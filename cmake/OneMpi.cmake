@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The MPI library that a shared library needs (ENTRY = NEEDED) or is (ENTRY = SONAME), such as libmpi.so.40 (Open MPI) or
 # libmpich.so.12 (MPICH); empty where there is none.
 function(rhexis_mpi_library LIBRARY ENTRY RESULT)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # cpack -G DEB in the build folder: a package for the Debian that it is built on. Build it by the preset `portable`, so that it
 # runs on any processor.
 set(CPACK_PACKAGE_NAME rhexis)

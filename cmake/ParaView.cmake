@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # ParaView's VTK, looked for once: for the pictures (src/insitu) and for VTP files (src/network/vtp).
 if(NOT RHEXIS_INSITU)
   return()

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # A portable build runs on every x86-64 processor since 2009 (level x86-64-v2: SSE4.2) and is as fast as one for the machine at
 # hand: libraries with vector code are built for newer levels too (v3: AVX2; v4: AVX-512), and the dynamic loader takes the best
 # that the processor has, from glibc-hwcaps/<level> beside the library. Each level is a whole library, so that no function that

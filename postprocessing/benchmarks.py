@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Benchmarks of this machine, here and now: bonds, networks, output and pictures, beside what the machine can do.
 
     apt-get install libbenchmark-dev

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The paper's vessel by Rhexis and by LAMMPS peri/pmb, in turns: speed, displacements, energies, onset of rupture.
 
     apt-get install --no-install-recommends lammps

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Two runs of one input, say on two machines or by two compilers: how far their results are from each other.
 
     postprocessing/compare_runs.py FOLDER OTHER_FOLDER [--tolerance 0] [--picture-tolerance 0.01]

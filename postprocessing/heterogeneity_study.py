@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """How onset, number and size of cracks depend on the scatter of the wall: a table and a picture, measured here and now.
 
     postprocessing/heterogeneity_study.py [--program build/release/bin/rhexis] [--seeds N] [-o results/heterogeneity]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The vessel of a Rhexis run as LAMMPS peri/pmb takes it: data file, input, run, results. For compare_peers.py.
 
 LAMMPS' PMB (Parks et al. 2008) works with densities: a particle's mass is its density, a force is a force per volume,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Watches a run through Catalyst Live from a terminal: prints each step that arrives, its points and its arrays.
 
     postprocessing/pvpython_headless postprocessing/live_client.py [HOST:PORT] [--source NAME] [--steps N] [--wait SECONDS]

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
 # A movie from the images of a run, <series>_<number>.png; of several series the one with most:
 #   postprocessing/make_movie.sh results/perivessel/images [movie.mp4] [frames per second]
 # The movie's default place is beside the folder of images.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Speed against error of the network tiers, as tables and a plot.
 
     cmake --preset release -DRHEXIS_BENCHMARKS=ON && cmake --build --preset release

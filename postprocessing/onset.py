@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What verify.py and speed_against_error.py have in common: two discretisations, and when a wall of them begins to rupture."""
 
 import json

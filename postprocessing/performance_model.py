@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Resources against size, Eq. (10) of the paper, and how long a run takes on other cores: formulas, no runs, no files."""
 
 import dataclasses

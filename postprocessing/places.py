@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Where a study finds its inputs and the program, and where it writes: in a clone, or in the installation that this file is in."""
 
 import pathlib

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Curves over time from the history of a run.
 
     postprocessing/plot_history.py results/perivessel/history.csv [-o history.png]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Probability of rupture against pressure, from the table of an ensemble.
 
     postprocessing/plot_probability.py results/rupture_probability/probability.csv [-o probability.png]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a saved network: the same as catalyst_scripts/network.py makes during the run.
 
     postprocessing/pvpython_headless postprocessing/render_network.py results/.../network.xdmf

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures of a vessel from saved particles: the same as catalyst_scripts/vessel.py makes during the run.
 
     postprocessing/pvpython_headless postprocessing/render_particles.py results/perivessel/particles.xdmf

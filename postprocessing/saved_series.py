@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the scripts have in common that draw saved series: arguments, moments in time, the loop over them."""
 
 import argparse

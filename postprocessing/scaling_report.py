@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What scaling_study.py says: tables on the screen, scaling.csv, scaling.json, and a figure for each study."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The runs of a scaling study: checked, started here or written as jobs for Slurm, and read."""
 
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """How a run scales with cores and with size, measured here and now: speedup, efficiency and resources, as in the paper's Fig. 2.
 
     postprocessing/scaling_study.py inputs/perivessel.toml --strong --layouts 1x1 1x2 2x1 --set insitu.enabled=false

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Speed against error: work-precision diagrams and tables of the discretisations there are, measured here and now.
 
     ./quickstart test     # builds what this runs

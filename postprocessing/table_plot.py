@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What scripts that draw a table of a run have in common: reading it, and the command line."""
 
 import argparse

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Which choice that the paper leaves open moves which of its figures: a table, measured.
 
     postprocessing/unstated_choices.py [--program build/release/bin/rhexis] [--ranks N] [-o results/unstated_choices]

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """The verification suite: Rhexis against closed forms, as a report with plots.
 
     ./quickstart test     # builds what this runs

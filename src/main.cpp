@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // rhexis: parse, build, run, report.
 #include "app/commands.hpp"
 #include "parallel/communicator.hpp"

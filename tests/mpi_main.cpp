@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs a GoogleTest program on every rank; the program fails if any rank fails.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Networks to solve, for tests and benchmarks.
 #pragma once
 

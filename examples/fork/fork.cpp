@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Steady flow of blood in a vessel that forks in two, by the libraries of an installed Rhexis:
 //   cmake -B build -DCMAKE_PREFIX_PATH=/where/rhexis/is && cmake --build build && build/fork
 #include <cstdio>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// `rhexis check`: what an input file amounts to, before anybody pays for it.
 #pragma once
 

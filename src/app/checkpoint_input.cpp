@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "app/checkpoint_input.hpp"
 
 #include <fmt/format.h>

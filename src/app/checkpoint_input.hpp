@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The input that checkpoints hold, and a restart's compared with it.
 #pragma once
 

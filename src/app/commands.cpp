@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "app/commands.hpp"
 
 #include <fmt/format.h>

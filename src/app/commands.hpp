@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The command line: what was asked for, and doing it.
 #pragma once
 

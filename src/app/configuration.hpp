@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The whole input of a run, typed: what the reader fills and the rest of the program builds from.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Coupled scenes: one vessel of a network, or a cascade of them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Probability of rupture against pressure: many vessels with scattered walls, shared among the ranks.
 #pragma once
 

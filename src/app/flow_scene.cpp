@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "app/flow_scene.hpp"
 
 #include "core/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The network of a scene, from its configuration.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "app/folder_plan.hpp"
 
 #include <fmt/format.h>

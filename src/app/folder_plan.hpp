@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a run reads and what it writes to its folder, known from its configuration.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // `rhexis check` of a network.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "app/network_coupling.hpp"
 
 #include <fmt/format.h>

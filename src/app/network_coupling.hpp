@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A coupled scene's network and one of its vessels: the network is solved, its vessel chosen, and its wall
 /// resolved.
 #pragma once

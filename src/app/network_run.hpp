@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The flow in a network from its configuration to its results.
 #pragma once
 

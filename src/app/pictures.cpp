@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "app/pictures.hpp"
 
 #include "hemodynamics/vessel_lines.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What came out of a run: the `results` part of run.json.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "app/scene_keys.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Which keys a scene has: those of its model, with what their values are put into.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Checkpoints of a vessel's run: what they hold, and going on from one.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a vessel's run says of itself: at its start, at its end, and in run.json.
 #include <fmt/format.h>
 

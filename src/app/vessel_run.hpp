@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// One vessel from its configuration to its results: owns the time loop and the observers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The quasi-static start of a vessel's run.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Whether a wall fits into memory, before any of it is made.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Tables in CSV files: a header row that names columns and, in brackets, their units; rows of numbers and
 /// texts. Commas between fields, points in decimal numbers; fields may stand in double quotes; empty rows and
 /// those of a comment (#) are skipped, a byte order mark and carriage returns before line ends too.

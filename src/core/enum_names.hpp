@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The words by which input files, messages and records know the values of an enum: one table beside each
 /// enum.
 ///

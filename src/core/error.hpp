@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Two kinds of failure a user can meet; a broken invariant inside the program is an assert, not one of
 /// these.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Fields as observers see them: name, unit, components and borrowed memory; no physics.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The files that belong to the program: found beside it, so that an installation may be moved. The build
 /// folder has the same layout as an installation.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A factor around one that is never negative: what material strength and wall thickness scatter by.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// One declaration per input key, made beside the physics that uses it; the reader, the checks, `rhexis keys`
 /// and the record of a run all work from it.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Plugins: libraries that need ParaView, opened only when their work is asked for. Each is looked for in the
 /// folder RHEXIS_PLUGIN_DIR (environment variable) or else in the installation's (core/installation.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Text from files and command lines, made fit for a terminal and a line of a log.
 #pragma once
 

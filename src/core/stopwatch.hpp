@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Measures where a run spends its time.
 #pragma once
 

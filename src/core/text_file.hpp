@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Files of text that are read whole: regular ones, that fit into memory.
 #pragma once
 

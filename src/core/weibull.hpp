@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A factor around one that is never negative, with the tail of the weakest link: how strength scatters where
 /// the worst of many flaws decides (Weibull 1951).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/coupled_vessel.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A vessel of a network and its wall, coupled (Sec. 3.3): the network loads the wall and, in two-way
 /// coupling, hears of its lumen and its leak at the end of every window.
 ///

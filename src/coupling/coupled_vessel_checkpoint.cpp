@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What checkpoints hold of a vessel that is coupled with its network, and its table.
 #include <fmt/format.h>
 

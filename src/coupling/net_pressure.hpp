@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What presses on a vessel's wall.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What presses on a vessel besides the blood that the heart drives: weight, tissue, atmosphere, compression.
 #pragma once
 

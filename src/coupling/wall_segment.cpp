@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/wall_segment.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// From a vessel of the network to a peridynamic wall (Sec. 3.3).
 #pragma once
 

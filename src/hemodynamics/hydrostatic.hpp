@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The weight of blood, P_g of Eq. (7): in a body that is accelerated (or at rest under gravity) by a, blood
 /// at rest has the pressure rho a . x. Steady flow through rigid vessels is driven by the rest, P* = P - rho
 /// a . x alone, so the flow solvers know nothing of it: conditions are turned into P* before, and pressures

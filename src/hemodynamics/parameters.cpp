@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "hemodynamics/parameters.hpp"
 
 #include "core/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Input keys of the sections blood and flow.
 #pragma once
 

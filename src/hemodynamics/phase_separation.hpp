@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Red cells at a bifurcation: they do not divide as blood does, the faster branch gets more than its share
 /// (Pries & Secomb 2008, Microcirculation, in Handbook of Physiology; Pries et al. 1989, Microvasc Res
 /// 38:81).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Laminar flow through a rigid cylinder: Q = dP / R with R = 8 eta L / (pi r0^4)   (Eq. 9, Sec. 3.3).
 ///
 /// eta: apparent viscosity, Pa s; L: axial length, m; r0: radius of the lumen, m; Q: m3/s; dP: Pa.

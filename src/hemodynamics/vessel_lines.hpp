@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The vessels of a network as lines with fields, for files and pictures.
 ///
 /// Points: `pressure` (Pa, relative to atmosphere). Lines: `flow` (m3/s, along the line), `radius` (m),

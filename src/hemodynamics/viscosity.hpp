@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Apparent viscosity of blood in narrow vessels (Fahraeus-Lindqvist effect), relative to plasma.
 ///
 /// With the lumen's diameter D in um and the discharge haematocrit H:

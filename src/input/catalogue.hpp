@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Looking up keys and sections in the declarations, and guessing the one that a user meant.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a key takes, in words, from its declaration.
 #pragma once
 

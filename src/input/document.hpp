@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// An input file and the `--set key=value` of the command line, read into one flat list of keys and values.
 /// No TOML type leaves document.cpp.
 #pragma once

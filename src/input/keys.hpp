@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The reference of the input, made from the declarations: the text of `rhexis keys [WHICH]`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// From a document to the typed configuration: every declared key filled, or one error that says what to
 /// change.
 ///

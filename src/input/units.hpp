@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Quantities written by people, such as "1.5 mm" or "238 kPa", turned into SI numbers by UDUNITS-2.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// One value of the input, checked against its declaration and put into its typed home.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "input/wording.hpp"
 
 #include <fmt/format.h>

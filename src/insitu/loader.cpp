@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "core/plugin.hpp"
 #include "insitu/pipeline.hpp"
 #include "insitu/window/libraries.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "insitu/parameters.hpp"
 
 namespace rhexis::insitu {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Pictures while the program runs: what the solver sees of ParaView Catalyst. Nothing here needs ParaView,
 /// which is loaded (as the plugin librhexis_catalyst.so) only when a pipeline is asked for.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A vascular network as an explicit graph: junctions joined by vessels (Sec. 3.3). Any degree, loops,
 /// several components, dead ends and isolated junctions are allowed.
 #pragma once

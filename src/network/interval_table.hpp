@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A smooth positive function of a positive number, tabulated so that its values cost a few nanoseconds to
 /// the last digits: every octave is cut into 2^bits even intervals, each with the polynomial of degree 7
 /// through the function's values at 8 Chebyshev nodes. The interval and the place in it are read off the bits

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A graph from the rows of a file, checked one by one: whatever the format, the same mistakes get the same
 /// messages.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Networks of the user's own, read from files.
 ///
 /// CSV: two files, each with a header row that names columns (in any order) and, in brackets, their units;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Random numbers of the implicit trees: a function of (seed, stream, number), so that a vessel's draw does
 /// not depend on who asks, in which order, or on how many ranks.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The whole tree pair as an explicit graph, generation by generation. No temporary arrays: radii hold
 // capacities until the end.
 #include <cstdint>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The arterial tree and its venous mirror, joined leaf to leaf at the midplane (Sec. 3.3), as a function of
 /// the vessel's id: nothing is stored, any of up to 2 (2^40 - 1) vessels can be asked for.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A rank's part of the tree pair as an explicit graph of its own.
 #include <algorithm>
 #include <bit>

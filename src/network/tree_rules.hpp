@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Rules of the recursive bifurcation that makes a vascular tree (Sec. 3.3).
 ///
 /// A vessel of lumen radius r bifurcates so that  r^xi = r1^xi + r2^xi  (Murray 1926: xi = 3; Olufsen

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Which places of a huge tree to store and draw: a picture cannot tell 34 billion vessels apart.
 #pragma once
 

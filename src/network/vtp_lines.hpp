@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The rules by which the lines of a VTP file become a network (see vtp_network.hpp); no VTK.
 #pragma once
 

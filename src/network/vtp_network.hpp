@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Networks as VTK's PolyData lines (.vtp), the files of ParaView and of centre line tools. VTK is in a
 /// plugin (librhexis_vtp.so, see core/plugin.hpp), which is opened by the first call.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a VTP file has: lines that name points, arrays, points at one place, conditions.
 #include <array>
 #include <limits>

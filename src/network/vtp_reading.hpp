@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The work behind vtp_lines.hpp: what the file has (vtp_points.cpp) and how it is cut (vtp_lines.cpp).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Thickness of a vessel's wall, and the stress that a pressure causes in it.
 #pragma once
 

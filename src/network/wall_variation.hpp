@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Walls that differ from their rule: vessels marked as weak, and scatter from vessel to vessel.
 ///
 /// A vessel has a *number* among those of its kind: its place in a tree (network/tree_pair.hpp), its index in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Small text files that are never seen half written, and tables that grow by whole rows.
 #pragma once
 

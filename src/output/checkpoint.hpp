@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The state of a run by name, for a restart on any number of ranks.
 ///
 /// Distributed arrays are stored in the partition-independent numbering (PointLayout) or as a table of words,

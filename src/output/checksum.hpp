@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Checksums of data that ranks write and read in pieces, each divided as it likes.
 ///
 /// The checksum of values x_i is the sum over i of mix(bits of x_i + key + i c), modulo 2^64. Integer sums do

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Files changed in place: disk space that is had before it is needed, and data that are known to be on disk.
 #pragma once
 

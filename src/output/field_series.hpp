@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What series of points and series of lines have in common, in whichever format: files laid out once, steps
 /// that add values, and a list of complete steps.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "output/folder_contents.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What is in a results folder before a run changes anything there, and what of it would be in the run's way.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Parallel HDF5 behind a few words: handles that close themselves, calls that throw, blocks of a point
 /// numbering.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// history.csv: the run in numbers, one row per output.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Tables of an earlier run that a restart continues.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A network's fields over time, such as pressures at junctions and flows in vessels, in the files
 /// `network.h5` and `network.xdmf` (see XdmfSeries), `network.vtkhdf` (see VtkHdfSeries), or both. Points and
 /// lines of the first rank come first.

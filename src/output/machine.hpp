@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What the machine tells of itself: processor, memory, energy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// manifest.txt: which files of a results folder runs made.
 #pragma once
 

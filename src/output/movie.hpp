@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// movie.mp4 from a folder of numbered pictures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Names of a run's pictures: SERIES_DIGITS.png, as scripts give them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A body's fields over time, in the files `particles.h5` and `particles.xdmf` (see XdmfSeries),
 /// `particles.vtkhdf` (see VtkHdfSeries), or both. Points lie in the partition-independent order
 /// id = column * rows + row.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The folder that a run writes to. A run replaces or removes there only what earlier runs made, as their
 /// manifest tells, and never what it reads itself; it follows no links inside the folder.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// run.json: what was run, how it ended, what came out and what it cost.
 #pragma once
 

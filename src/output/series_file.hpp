@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The HDF5 file of a series: data sets of reals and integers, laid out once by the root, to which all ranks
 /// then write their parts.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What there is to tell of a series, before any file is open.
 #pragma once
 

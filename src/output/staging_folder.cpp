@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "output/staging_folder.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Where somebody else writes files (Catalyst scripts their pictures), which become results when they are
 /// complete.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Files under names that nobody can foresee, beside the file that they will become.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A run whose record says 'running': at work, or ended without a word.
 #pragma once
 

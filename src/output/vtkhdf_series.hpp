@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A series as VTKHDF, the HDF5 file format of VTK: one file, which ParaView 5.12 and later reads as poly
 /// data over time.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A list of complete steps, as an XDMF file, to which adding costs the same however long it is.
 ///
 /// The file is well-formed XML at every instant, so that a reader, or what a kill leaves behind, has the list

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A series as HDF5 and XDMF, which any ParaView reads.
 ///
 /// `NAME.h5` holds N points and L lines, those of points in the order of their layout:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// MPI behind a few words. Only `parallel/` includes <mpi.h>; a serial run is one rank of the same path.
 #pragma once
 

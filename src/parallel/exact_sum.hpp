@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Sums of doubles that do not depend on the order of their terms, hence not on ranks and threads.
 #pragma once
 

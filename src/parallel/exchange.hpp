@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Collective exchange of records (trivially copyable, fewer than 2^31 from or to one rank).
 #pragma once
 

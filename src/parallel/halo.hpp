@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Exchange of values that several ranks need, in two halves so that work fits in between.
 #pragma once
 

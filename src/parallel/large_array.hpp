@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Room for arrays of millions of entries in large pages, where the system has them: fewer page faults on
 /// first touch, fewer misses of the address cache on random access.
 #pragma once

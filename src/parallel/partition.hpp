@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Columns x axial blocks over ranks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Values at points that several ranks hold, each with an index of its own; one of the ranks owns the point.
 #pragma once
 

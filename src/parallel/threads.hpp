@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Threads behind two words: a fixed number of workers, each given one contiguous share.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A failure on any rank becomes the same exception on all ranks, so that none waits for another for ever.
 #pragma once
 

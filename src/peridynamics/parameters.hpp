@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Input keys of one vessel's peridynamic model, declared once: `rhexis keys` prints what stands in the .cpp.
 #pragma once
 

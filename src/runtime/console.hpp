@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a run says at the terminal: header, progress, summary. Only the root rank speaks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Failures turned into one message and an exit status, the same on every rank.
 #pragma once
 

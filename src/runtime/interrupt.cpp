@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "runtime/interrupt.hpp"
 
 #include <fmt/format.h>

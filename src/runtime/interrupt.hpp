@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Signals that ask a run to end: SIGINT (Ctrl-C), SIGTERM (mpirun, batch systems), SIGHUP (the terminal is
 /// gone; not where it is ignored, as under nohup), and SIGUSR1 and SIGXCPU, which batch systems send some
 /// time ahead of the end.

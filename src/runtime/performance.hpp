@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a run took: the `performance` part of run.json.
 #pragma once
 

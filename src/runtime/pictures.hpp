@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Starting ParaView for a run, or saying why there will be no pictures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What the command line says of a run, and how runs end.
 #pragma once
 

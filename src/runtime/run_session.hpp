@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What every run has, whatever it simulates: options, terminal, clock, the folder of results with their
 /// record, and pictures.
 #pragma once

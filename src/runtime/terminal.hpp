@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The terminal, which must never cost a run: text that cannot be written is lost, and that is noticed.
 #pragma once
 

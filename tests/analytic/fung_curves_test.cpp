@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Uniaxial and equibiaxial stress-stretch curves of the Fung bond against the continuum (Cauchy-Born).
 //
 // In a body that deforms by F everywhere a bond of direction n has s = |F n| - 1, and

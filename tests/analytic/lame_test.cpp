@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Static expansion under a small pressure against Lame's plane-strain solution with nu = 1/4. The paper's
 // discretisation (a clipped lattice of 100 um, no surface correction) is far from it. The errors below are
 // those stated in docs/accuracy.md, so that a change of either is noticed;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The linear peridynamic solid against Lame at several Poisson's ratios, polar cross-section, families of 3.5
 // spacings. Relative L2 errors of the radial displacement over the wall, without surface correction under the
 // consistent layer, the same with m of each particle's own family in place of pi delta^4 (in brackets; rings

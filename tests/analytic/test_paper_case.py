@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The paper's case, whole: inputs/perivessel.toml without pictures (about 10 s on two idle cores).
 
 Run by ctest as: test_paper_case.py RHEXIS SOURCE_DIR

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Two builds of Rhexis on every input of inputs/: a change that is to leave all results as they were is tried by this.
 
     tests/behaviour/compare_programs.py RHEXIS OTHER_RHEXIS [INPUT...] [--whole] [--keep FOLDER]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "bench/bond_arithmetic.hpp"
 
 #include <hwy/aligned_allocator.h>

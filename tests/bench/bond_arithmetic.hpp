@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What this machine can do at most of the arithmetic that a bond takes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bond evaluations a second of Body::advance, one property of the wall changed at a time.
 //
 // Counters: directed bonds/s (two a bond) and the flop/s counted for them (peridynamics::flop_per_bond,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the benchmark programs have in common: their command line, and measuring beside the machine's peak.
 #pragma once
 

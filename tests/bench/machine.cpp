@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The peaks of this machine, on one thread and on all.
 #include <omp.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Of every benchmark program:
 //
 //   bench_... [--samples N] [--scratch FOLDER] [options of Google Benchmark, such as

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vessels a second by tier, on one thread and on all: trees that are not stored, way up and way down, and
 // explicit graphs. (The distributed tier: postprocessing/network_speed_and_error.py. Errors: tree_flow.cpp,
 // network_solvers.cpp.)

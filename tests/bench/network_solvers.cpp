@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Time and error of the solvers of explicit networks.
 //
 //   network_solvers [JUNCTIONS] [--json FILE]      lattice of degree <= 3 with loops, conductances lognormal,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a frame of the paper's vessel costs: its fields evaluated, forces included, which the next step then
 // has; stored as particles; stored as a checkpoint. And what an output of a tiny body costs when it is the
 // 10th, 1,000th and 10,000th of a run: where the files are, not what is in them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What this machine can do at most, measured: the yardsticks of the benchmarks.
 //
 // Rates are sums over `threads` threads that work at the same time. Each takes its best of some bursts of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Time and error of the recursion on random tree pairs, vessel by vessel.
 //
 //   tree_flow [--json FILE] [GENERATIONS...]       default 12 16 20 24 28

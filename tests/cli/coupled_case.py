@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Networks with one vessel that has a wall: scenes, and what tests of them have in common."""
 
 import csv

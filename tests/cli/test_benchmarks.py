@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The benchmark script: its table from recorded cases, what it says where the programs are not built, and, where they are,
 a quick run.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The program as its users meet it: the command line, wrong inputs, the record of a run.
 
 Run by ctest as: test_cli.py RHEXIS MPIRUN...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Two runs compared: identical ones, one with a changed number, one with a file missing.
 
 Run by ctest as: test_compare_runs.py RHEXIS MPIRUN...

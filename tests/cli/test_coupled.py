@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A vessel of a network, coupled, as a user meets it: wrong input, load, restarts.
 
 Run by ctest as: test_coupled.py RHEXIS MPIRUN...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Every ending of a run leaves a true record: signals, a terminal or files that cannot be written, dead ranks.
 
 Run by ctest as: test_endings.py RHEXIS MPIRUN...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Ensembles as a user meets them: wrong input, the same digits on any ranks and threads, restarts, mixing of folders.
 
 Run by ctest as: test_ensemble.py RHEXIS MPIRUN...

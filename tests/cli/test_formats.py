@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Results as XDMF and as VTKHDF hold the same, also after a restart, on more than one rank and of networks.
 
 Run by ctest as: test_formats.py RHEXIS MPIRUN...

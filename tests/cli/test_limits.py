@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Limits: memory that is told before it is taken, odd names, files and settings, tables of pressure from files.
 
 Run by ctest as: test_limits.py RHEXIS MPIRUN...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The program on networks, as a user meets it: runs, records, tables, wrong input, ranks.
 
 Run by ctest as: test_network.py RHEXIS SOURCE_DIR MPIRUN...

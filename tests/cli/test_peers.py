@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The comparison with LAMMPS: what it says where LAMMPS is absent, what it writes for it, and, where it is there, that
 both codes agree on a tiny vessel.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Catalyst scripts as users name them: what check and run say of wrong ones, and that right ones change no results.
 
 Arguments: RHEXIS MPIRUN...

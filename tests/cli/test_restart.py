@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Interrupts, checkpoints, and restarts from them.
 
 Run by ctest as: test_restart.py RHEXIS MPIRUN...

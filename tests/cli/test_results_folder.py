@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A run loses nothing of the user's: what it replaces, removes, follows and leaves in its folder of results."""
 
 import os

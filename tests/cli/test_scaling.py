@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The scaling study: fits, the performance model, a small study from run to table, job scripts, wrong arguments.
 
 Run by ctest as: test_scaling.py RHEXIS SOURCE_DIR MPIRUN...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Screening, weak walls and cascades, as a user meets them: lists, records, choice of the vessel, wrong input, ranks.
 
 Run by ctest as: test_screening.py RHEXIS SOURCE_DIR MPIRUN...

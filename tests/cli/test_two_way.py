@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A vessel of a network that bleeds into it: closed form, windows, tiers, ranks.
 
 Run by ctest as: test_two_way.py RHEXIS MPIRUN...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """One small vessel, and what tests of it have in common."""
 
 import csv

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Orders of convergence and closed forms; postprocessing/verify.py reports the same studies in full.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "convergence/studies.hpp"
 
 #include <algorithm>

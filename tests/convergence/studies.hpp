@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Measured against closed forms: what the tests in this folder hold and postprocessing/verify.py reports.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Prints one study as a table of comma-separated values, for postprocessing/verify.py:
 //
 //   verification elasticity|energy|breathing|time_step|precision|expansion DISCRETISATION [NUMBER]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What the tests of pictures have in common: the program insitu_driver, and pictures as numbers.
 
 Arguments of a test: DRIVER PLUGIN_DIRECTORY SOURCE_DIRECTORY MPIRUN... [-- unittest arguments]

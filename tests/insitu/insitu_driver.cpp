@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Runs Catalyst scripts on a synthetic vessel, network or both, as the solver would; checked by
 // test_insitu.py.
 //   insitu_driver IMAGE_DIRECTORY RENDERER CHANNELS FRAMES SCRIPT...

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// An arterial tree and its venous mirror by formula, without a solver. Counts what it is asked for.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Writes a synthetic run as the program would: particles.xdmf and .h5, history.csv."""
 
 import sys

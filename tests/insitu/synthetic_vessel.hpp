@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A vessel that bulges and opens by formula: the paper's tube without a solver. Counts what it is asked for.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures, movies and curves of saved files."""
 
 import subprocess

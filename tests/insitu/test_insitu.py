@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Pictures while the program runs, on a synthetic vessel and network (insitu_driver): pictures, failing scripts."""
 
 import json

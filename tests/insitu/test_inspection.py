@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What is told of users' Catalyst scripts without running them (src/insitu/catalyst/inspection.py); needs no ParaView.
 
 Arguments: SOURCE_DIRECTORY

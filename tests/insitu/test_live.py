@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """A run that is watched through Catalyst Live, and one that nobody watches."""
 
 import socket

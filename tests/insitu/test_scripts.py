@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Users' scripts as they really are, on a synthetic vessel and network: exported states, scripts that do harm, that hang."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What is left out of a picture cannot be seen, and not much else is drawn. Usage: test_visible_spheres.py SCRIPTS"""
 
 import sys

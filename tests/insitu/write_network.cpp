@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Stores a synthetic network as the solver would; test_insitu.py draws what is stored.
 //   write_network DIRECTORY KIND       KIND as for insitu_driver, e.g. network:planar:4
 #include "output/line_series.hpp"

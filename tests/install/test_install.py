@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """An installation, moved after it was made: the program runs and draws, and the examples build against its libraries.
 
 Run by ctest as: test_install.py BUILD_DIR SOURCE_DIR CMAKE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A network cut over ranks has the flows and pressures of the whole: to 1e-10 of the inflow where the rest is
 // solved iteratively, to rounding where elimination solves it. Vessels are dealt out in blocks (neat cuts)
 // and one by one (nearly every junction shared).

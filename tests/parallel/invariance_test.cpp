@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The same broken bonds and bit-identical positions, energies and openings for any number of ranks and
 // threads. Each rank computes the reference by itself, on one thread; then all of them compute together, on
 // two.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One tree pair by three tiers: recursion, explicit graph, graph over all ranks. Every pressure to 1e-10 of
 // the pressure difference, every flow to 1e-10 of itself. At 1, 2 and 4 ranks. With
 // RHEXIS_TEST_GENERATIONS=24 in the environment (10 GB) it does so for that one size.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Capillary to aorta, 3 to 40 spacings of wall, 1 Pa to 1 GPa, loads that come at once.
 #include <gtest/gtest.h>
 

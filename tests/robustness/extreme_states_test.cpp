@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // States far from rest: crushed, coincident, far away, spinning, torn apart.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Kills runs at random moments and looks at what they leave: every listed step must be whole.
 
     tests/robustness/kill_during_output.py build/release/bin/rhexis [--kills 300] [--seed 1] [--launcher "mpirun -n 2"]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Nothing drifts: a million steps, loose particles and fragments in free flight.
 #include <gtest/gtest.h>
 #include <omp.h>

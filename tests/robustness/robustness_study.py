@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """Tries to make Rhexis crash, hang, lose something, or be wrong without a word.
 
     tests/robustness/robustness_study.py inputs --count 10000      mutated TOML, CSV, JSON and VTP files, --set arguments

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tubes small enough for ten thousands of steps in a second, their energy and momentum.
 #pragma once
 

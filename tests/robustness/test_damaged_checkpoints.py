@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Restarts from damaged checkpoints: refused with one line that names the file, or, where the damage hit nothing that is used,
 bit-identical to those from the undamaged one. robustness_study.py tries more, and more scenes.
 

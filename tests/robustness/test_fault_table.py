@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What people have met: each fault's case as a row, with how the run must end, what it must say, and that it leaves files alone.
 
 Run by ctest as: test_fault_table.py RHEXIS

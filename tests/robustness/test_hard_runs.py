@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Whole runs at the edge: time steps beyond the stable one, and pressures from 1 Pa to 1 GPa.
 
 Run by ctest as: test_hard_runs.py RHEXIS

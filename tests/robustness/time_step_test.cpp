@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How long a time step may be: the computed stable one, where instability really begins, and that it is
 // noticed.
 #include <gtest/gtest.h>

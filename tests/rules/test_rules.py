@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Rules that machines keep: who may include whom, where MPI and OpenMP live, no dead links in the docs, a time limit for every test.
 
 Run by ctest as: test_rules.py SOURCE_DIR BUILD_DIR CTEST
@@ -107,6 +108,15 @@ class Rules(unittest.TestCase):
         for doc in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", SRC / "README.md", *(ROOT / "docs").glob("*.md")):
             for link in re.findall(r"\]\(([^)#:]+)\)", doc.read_text()):
                 self.assertTrue((doc.parent / link).exists(), f"{doc}: {link}")
+
+    def test_every_source_file_names_the_licence(self):
+        files = [path for folder in ("src", "tests", "cmake", "examples", "postprocessing", "catalyst_scripts", ".ci") for path in (ROOT / folder).rglob("*")]
+        files += [ROOT / name for name in ("CMakeLists.txt", "quickstart", "Dockerfile", "Doxyfile")]
+        for path in files:
+            source = path.suffix in (".hpp", ".cpp", ".in", ".py", ".cmake", ".sh") or path.name in ("CMakeLists.txt", "quickstart", "Dockerfile", "Doxyfile")
+            if path.is_file() and source and "__pycache__" not in path.parts:
+                first = path.read_text().split("\n", 2)[:2]  # the second, where the first says what runs it
+                self.assertTrue(any(line.endswith("SPDX-License-Identifier: BSD-3-Clause") for line in first), str(path))
 
     def test_the_citation_names_the_version(self):
         version = re.search(r"project\(rhexis VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text()).group(1)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The wall at rest under a small pressure, in plane strain, against Lame.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One bond's law on one lane, for tests from a table of stretches.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Trees for tests, and their flow by plain recursion in long double.
 #pragma once
 

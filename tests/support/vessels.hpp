@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vessels and bodies for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Blood that leaves a vessel through an opening in its wall.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The network as a graph over the memory of all ranks.
 #include <fmt/format.h>
 

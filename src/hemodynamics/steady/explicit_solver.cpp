@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The network as a graph in the memory of the first rank, which solves; the others wait.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "hemodynamics/steady/flow_problem.hpp"
 
 #include <fmt/format.h>

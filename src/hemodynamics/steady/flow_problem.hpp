@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The steady flow that is asked for: a network, its blood, and what is to be kept of the solution.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The ways to hold a network and find its steady flow, behind one interface: a tree pair by recursion, of
 /// which nothing is stored; a graph in memory; a graph over the memory of all ranks.
 #pragma once

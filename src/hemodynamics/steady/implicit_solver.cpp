@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The tree pair by recursion; nothing is stored.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The steady flow in a graph some of whose vessels have ruptured: they bleed, or nothing flows through them
 /// any more.
 #pragma once

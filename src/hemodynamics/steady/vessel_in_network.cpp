@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "hemodynamics/steady/vessel_in_network.hpp"
 
 #include <algorithm>

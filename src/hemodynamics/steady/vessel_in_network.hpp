@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// One vessel within the network around it: what its lumen and a leak do to pressures and flows.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// How a failure on one rank becomes a failure on all.
 #pragma once
 

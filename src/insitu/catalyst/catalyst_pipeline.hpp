@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The plugin's Pipeline: ParaView's set-up and end, and one round of scripts per step.
 #pragma once
 

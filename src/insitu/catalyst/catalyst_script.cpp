@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "insitu/catalyst/catalyst_script.hpp"
 
 #include <vtkCPInputDataDescription.h>

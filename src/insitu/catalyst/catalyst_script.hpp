@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// One Catalyst V2 script: when it wants to run, which fields it needs, running it.
 #pragma once
 

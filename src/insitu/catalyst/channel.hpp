@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What scripts call the things that a run shows, and what they want of them.
 #pragma once
 

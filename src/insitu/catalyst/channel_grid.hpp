@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A source as VTK sees it: particles as points, each a vertex cell; a network as points and lines; with the
 /// fields asked for as point or cell data, as their centring says. The values are copies, one for each
 /// script: whatever a script does to them, neither the solver nor another script sees it.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "insitu/catalyst/embedded_python.hpp"
 
 #include <vtkPythonInterpreter.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Python modules whose source is part of the plugin, and calls into them.
 #pragma once
 

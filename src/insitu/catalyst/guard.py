@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Lives inside the plugin (embedded at build time): what stands between ParaView and the users' scripts.
 
 ParaView prints a script's exception and goes on, on that rank alone; the other ranks then wait for it for ever.

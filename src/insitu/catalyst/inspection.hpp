@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What can be told of scripts without running them (inspection.py).
 #pragma once
 

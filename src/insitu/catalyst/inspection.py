@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What can be told of users' Catalyst scripts without running them; embedded in the plugin at build time.
 
 `rhexis check` and `rhexis run` read the scripts here before anything is written. Scripts are parsed, never executed,

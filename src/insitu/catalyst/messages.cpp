@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "insitu/catalyst/messages.hpp"
 
 #include <vtkLogger.h>

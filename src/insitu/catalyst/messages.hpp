@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// VTK's and ParaView's errors and warnings, kept from the terminal while a script runs.
 #pragma once
 

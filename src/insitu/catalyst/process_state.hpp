@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a script must leave as it found it, for the solver and its output rely on it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The Python side of the plugin: guard.py, which stands between ParaView and the scripts.
 #pragma once
 

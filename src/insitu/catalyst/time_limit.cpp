@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Before any other header; not vtkPython.h, which makes nothing of the interpreter's lock.
 #include "insitu/catalyst/time_limit.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// An end for scripts that do not end by themselves.
 #pragma once
 

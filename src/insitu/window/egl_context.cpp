@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>

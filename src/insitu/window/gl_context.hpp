@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// An OpenGL context without a display. Both kinds are opened at run time (dlopen), so neither library is
 /// needed to start the program.
 #pragma once

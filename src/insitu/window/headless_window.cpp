@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "insitu/window/headless_window.hpp"
 
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// VTK's render window without a display. Debian's VTK has an X11 window only; this one takes its place.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Functions of GLEW and GLX that VTK finds here before it finds the real ones: Debian's GLEW knows no
 // window system but GLX, and would give up without a display.
 #include <dlfcn.h>

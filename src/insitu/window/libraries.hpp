@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The one graphics library that must be loaded before VTK.
 #pragma once
 

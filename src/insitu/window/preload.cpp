@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // librhexis_window.so: gives pvpython and pvbatch a window without a display;
 // postprocessing/pvpython_headless places it (LD_PRELOAD) before them.
 #include <cstdio>

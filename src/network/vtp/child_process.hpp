@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Reading in a process of its own: VTK ends the program that it is in, or never ends, where the numbers in a
 /// file's tags do not fit its data.
 #pragma once

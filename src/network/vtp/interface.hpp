@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What the program and its plugin librhexis_vtp.so say to each other: plain arrays, no VTK.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The plugin librhexis_vtp.so: VTP files by VTK's own reader and writer.
 #include <vtkCellArray.h>
 #include <vtkCellData.h>

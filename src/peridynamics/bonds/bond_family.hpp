@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Bond families of an extruded body: one short list per column, the same for all of its rows.
 ///
 /// A bond of column i goes to (other column, axial offset): the particle in row k is bonded to row k + offset

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Surface corrections: weights of bonds that make up for the neighbours that particles near the wall's two
 /// surfaces lack, and for the coarseness of the sums that stand for integrals.
 ///

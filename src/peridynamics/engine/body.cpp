@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/engine/body.hpp"
 
 #include "peridynamics/engine/column_body_observe.hpp"

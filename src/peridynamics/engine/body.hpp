@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A vessel's wall in motion: state, bonds, one time step, and what observers may know of it.
 ///
 /// Velocity Verlet in its leapfrog form, one pass over memory a step: forces at t_n, then

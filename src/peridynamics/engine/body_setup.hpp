@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a body is made of: all that the engine needs, resolved.
 #pragma once
 

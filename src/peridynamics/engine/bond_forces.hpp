@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Forces of a rank's bonds (Eq. 1), subdomain by subdomain (thread_subdomain.hpp).
 ///
 /// In a subdomain columns are done one after another, each from its first row on. Forward bonds within the

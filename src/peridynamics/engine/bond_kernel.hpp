@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The inner loop: forces of one column's bonds on 16 of its rows at once (Eqs. 1, 2, 5).
 ///
 /// Every particle sums its family in the family's fixed order, lane by lane, so that on one kind of processor

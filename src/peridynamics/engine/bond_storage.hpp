@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A rank's bonds: their constants, one bit each that tells whether they are intact, and what follows from
 /// those bits.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The one implementation of Body: an extruded tube of columns, with bond laws.
 ///
 /// Its parts: which particles are here (Domain), properties by place (PlaceProperties), bonds (BondStorage),

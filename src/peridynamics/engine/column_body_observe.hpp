@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// ColumnBody: fields and totals at one moment.
 #pragma once
 

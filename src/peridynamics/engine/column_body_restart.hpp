@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// ColumnBody: what a restart needs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// ColumnBody: one step in time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a state-based law does before its forces can be summed: it finds the dilatation of each particle from
 /// its family, and the pressure that follows from it (laws/lps.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A rank's piece of the vessel: which columns and rows it owns, which it only reads, and how they lie in
 /// memory.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Energies of a body: what it took to break its bonds, the work done on it, and the sums of what was
 /// observed.
 #pragma once

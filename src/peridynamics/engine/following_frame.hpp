@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The displacement that bonds read: in the bonds' precision, in spacings, relative to a frame that follows
 /// the body, so that single precision keeps its digits wherever the body goes.
 #pragma once

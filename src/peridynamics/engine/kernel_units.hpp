@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// From the units of the bond kernel to SI: the kernel measures lengths in spacings and sums forces and
 /// energies for a bond constant of 1.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a wall takes in memory, by formulas: known before anything of it is made.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Properties of a wall that differ from place to place, on a rank's particles and its halo. They are pure
 /// functions of the reference position, so that no rank needs to ask another.
 #pragma once

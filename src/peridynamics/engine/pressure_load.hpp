@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The pressure on a rank's particles: Eq. (8)'s layer, times a share that differs along the axis and over
 /// thin spots.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The inner loop that a state-based law runs before the forces' (bond_kernel.hpp): extensions of each
 /// particle's family. Each end of a bond evaluates it for itself and breaks it here, in the same step.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The part of a rank's columns and rows whose forces one thread sums.
 ///
 /// Owned columns and blocks are dealt out to threads as the body's are to ranks. A bond to a later column of

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Cross-sections of the wall: one point per column of particles.
 ///
 /// A straight vessel is a cross-section extruded along z. Column c stands at (x[c], y[c]) and owns area[c];

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/geometry/gaussian_field.hpp"
 
 #include <Random123/philox.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Two independent Gaussian random fields in space: at every point of mean 0 and variance 1, smooth over a
 /// correlation length, and a function of (seed, position) alone, so that ranks, threads and any resolution
 /// see the same ones.

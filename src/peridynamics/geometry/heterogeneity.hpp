@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A wall whose properties differ from place to place: factors of mean 1 on critical stretch and stiffness
 /// that scatter ([scatter]), times those of spots given by place ([[spot]]). All of it is a function of the
 /// reference position, so that no rank needs to ask another.

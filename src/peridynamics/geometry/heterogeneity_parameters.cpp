@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/geometry/heterogeneity_parameters.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Input keys of a wall whose properties differ from place to place.
 #pragma once
 

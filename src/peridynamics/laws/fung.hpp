@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A bond that stiffens exponentially, as collagen does when its fibres straighten.
 ///
 /// Fung's strain energy of soft tissue grows like exp(Q), Q quadratic in the strain (Fung, Fronek & Patitucci

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/laws/law_parameters.hpp"
 
 #include "core/error.hpp"

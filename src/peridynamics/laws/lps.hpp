@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Linear peridynamic solid (LPS): ordinary, state-based, any Poisson's ratio; Silling et al. 2007, J. Elast.
 /// 88, 151-184.
 ///

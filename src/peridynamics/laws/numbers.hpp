@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The numbers that bond laws are written in, once: float, double, and vectors of them (Lanes).
 #pragma once
 

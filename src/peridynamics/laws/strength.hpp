@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What it takes to tear the wall: critical stretch s0 and energy release rate G0, each from the other.
 #pragma once
 

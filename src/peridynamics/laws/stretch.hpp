@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Stretch of a bond, in terms of t = (|xi + eta|^2 - |xi|^2) / |xi|^2 = (1 + s)^2 - 1, which the caller
 /// computes without cancellation. Every law is written in t, so that no root is needed to test for breaking.
 #pragma once

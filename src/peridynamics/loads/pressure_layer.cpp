@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/loads/pressure_layer.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Eq. (8): the net pressure as a body force in a layer at the lumen.
 ///
 /// The paper's layer r0 - delta <= r <= r0 lies in the lumen, where the wall has no particle; here it is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Course of the net pressure in time, before venting.
 #pragma once
 

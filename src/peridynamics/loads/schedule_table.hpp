@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A course of the pressure from a CSV file: columns "time [s]" and "pressure [mmHg]", in any units of their
 /// kinds and in any order (core/csv_table.hpp).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/loads/thin_spots.hpp"
 
 #include <algorithm>

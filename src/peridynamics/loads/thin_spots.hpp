@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Spots where the wall is thinner ([[spot]], thickness): its outer part is missing there. Particles farther
 /// out than r0 + f (r1 - r0) are absent, where f is the share of the thinnest spot at the place; they have no
 /// bonds, no load, no damage, and stay where they are.

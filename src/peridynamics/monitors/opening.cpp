@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/monitors/opening.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// How far the wall has opened, measured on the particles, and what that does to the pressure.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A body's particles as observers see them: fields with names and units, evaluated when first asked for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/stability/bond_step.hpp"
 
 #include <Eigen/Eigenvalues>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// How long a time step linear bonds allow.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// How stiff dilatation can make a body: what the stable time step of a state-based law depends on.
 #pragma once
 

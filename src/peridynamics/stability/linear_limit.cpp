@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/stability/linear_limit.hpp"
 
 #include <algorithm>

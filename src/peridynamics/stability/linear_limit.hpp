@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Where velocity Verlet really begins to be unstable, while strains are small.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The time steps of a run: how long, how many.
 #pragma once
 

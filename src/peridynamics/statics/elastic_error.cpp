@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/statics/elastic_error.hpp"
 
 #include <Eigen/Cholesky>

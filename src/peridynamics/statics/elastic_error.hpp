@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// How far a discretisation is from linear elasticity, found without simulating anything.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Static equilibrium of the wall under a pressure, by dynamic relaxation: the wall moves under its load, and
 /// its velocity is turned towards the forces while they do work, dropped as soon as they do not (FIRE, Bitzek
 /// et al. 2006, doi:10.1103/PhysRevLett.97.170201, with a constant step).

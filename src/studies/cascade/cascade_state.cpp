@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "studies/cascade/cascade_state.hpp"
 
 #include <algorithm>

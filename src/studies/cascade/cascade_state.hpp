@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The state of a cascade between two of its events, as it goes on from it and as it is stored.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// How often walls rupture, by pressure.
 #pragma once
 

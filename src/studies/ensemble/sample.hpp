@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// One vessel of an ensemble: a wall under a pressure, until it ruptures or the time is over.
 #pragma once
 

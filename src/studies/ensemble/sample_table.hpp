@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// samples.csv as text: a row per sample; numbers are the shortest decimals that read back as the same
 /// double.
 #pragma once

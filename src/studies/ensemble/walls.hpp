@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Walls with scattered properties, each a function of (seed, number), so that the same walls meet every
 /// pressure (common random numbers): differences between pressures are then none of chance.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "studies/flow/network_files.hpp"
 
 #include "network/vtp_network.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a solved network leaves in the folder of results.
 #pragma once
 

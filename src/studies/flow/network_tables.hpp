@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Tables of a network's results, as CSV.
 #pragma once
 

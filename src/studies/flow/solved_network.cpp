@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "studies/flow/solved_network.hpp"
 
 namespace rhexis::studies {

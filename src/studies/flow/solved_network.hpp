@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The steady flow in a network together with what a scene asks of it besides: which vessels are at risk.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "studies/screening/network_screening.hpp"
 
 #include <algorithm>

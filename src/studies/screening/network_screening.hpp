@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Screening of a whole network while its flow is found: which of its vessels are at risk.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Which vessels are at risk: lumen hoop strain against the wall's critical stretch, over all vessels.
 ///
 /// risk = e / s0, with e the hoop strain at the lumen under the net pressure of the vessel's middle

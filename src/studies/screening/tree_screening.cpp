@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The vessels of a tree, block by block.
 #include <hwy/aligned_allocator.h>
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Damaged checkpoints: refused with the name of what is damaged, or without effect on the results."""
 
 import pathlib

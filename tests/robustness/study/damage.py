@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Damage to an HDF5 file: of its bytes, and of what it holds, by h5py. Every function returns the names of what it damaged,
 one of which a refusal must tell; none where nobody can say."""
 

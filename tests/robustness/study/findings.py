@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a study found, and the table that it ends with."""
 
 import collections

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Mutated inputs: whatever is in them, a run ends by itself, tells what is wrong in one message, and takes nothing away."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Runs killed at random moments, and gone on with: on other ranks, to the results of an undisturbed run bit by bit."""
 
 import pathlib

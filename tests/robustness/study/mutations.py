@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Mutations of inputs: what slips of people, editors and file systems make of a file, and what somebody who means it does.
 
 Every function takes a `random.Random` and a text or bytes, and returns another. They know the shape of lines, numbers

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """The program under study, run with limits and without waiting for what it does not need."""
 
 import dataclasses

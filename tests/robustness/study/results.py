@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """What a run found, in a form that two runs of one scene have in common bit by bit; times and the machine left out."""
 
 import hashlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """Tiny scenes of every kind: what a mutation starts from. A run of any takes some tenths of a second.
 
 A scene is a mapping of file names to texts; the input file is called scene.toml.

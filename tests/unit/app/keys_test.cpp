@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The keys of the whole program, which the folders declare apart from each other, against each other; and
 // what is said of keys that a scene leaves without effect.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The names and their order in run.json are what users' scripts rely on.
 #include "app/results.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What is left of memory by control groups, and files that are no files.
 #include "core/memory.hpp"
 

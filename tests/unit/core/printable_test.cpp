@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Texts from files, as terminals may be given them.
 #include "core/printable.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Eq. (7), term by term.
 #include "coupling/net_pressure.hpp"
 

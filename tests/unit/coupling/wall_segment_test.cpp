@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a vessel's wall is made of, and how its load runs along it.
 #include "coupling/wall_segment.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Apparent viscosity: the published laws at haematocrit 0.45, their limits, and Poiseuille's law.
 #include "hemodynamics/viscosity.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What two records of a configuration have different.
 #include "input/difference.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The flat list of keys and values, from files, texts and --set. What is refused is in test_malformed.cpp.
 #include "input/document.hpp"
 

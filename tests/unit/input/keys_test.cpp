@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The reference that `rhexis keys` prints.
 #include "input/keys.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Inputs that are wrong, one table: what each must be answered with. Every answer has to say where, what and
 // what to do instead.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // From a document to typed values in SI, the record of the run, and errors of the physics put in their place.
 #include "input/reader.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Sections that may stand any number of times, [[mark]]: each fills one element of a list.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Declarations like those of the physics, with one of every type, for the tests of the input.
 #pragma once
 

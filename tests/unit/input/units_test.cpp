@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Units at the door. Tolerance: 4 units in the last place (conversion by factors that are not whole), else
 // exact.
 #include "input/units.hpp"

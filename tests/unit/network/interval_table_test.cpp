@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Tables of smooth functions, to the last digits.
 #include "network/interval_table.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Networks from CSV and JSON: what is read, what is refused and how.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The implicit tree pair: numbering, the rule of radii, positions. Tolerances are a few roundings.
 #include "network/tree_pair.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Restart from a checkpoint on other numbers of ranks; all comparisons are exact.
 #include "output/checkpoint.hpp"
 

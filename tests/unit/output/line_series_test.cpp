@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // All comparisons are exact: the values of the synthetic lines fit single precision.
 #include "output/line_series.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a file holds, read with HDF5's serial C API, as any other program would.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Lines whose values tell field, component, owner and step, dealt out to ranks in uneven blocks.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A body whose values tell field, component, particle and step, divided among ranks in a chosen way.
 #pragma once
 

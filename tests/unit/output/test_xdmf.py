@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 """ParaView's three XDMF readers, and its VTKHDF reader from 5.12 on, read the series of write_sample_series (argv[1]) and
 write_sample_lines (argv[2]): steps, cells, values.
 """

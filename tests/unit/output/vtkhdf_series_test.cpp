@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The file is read back with HDF5's serial C API, as any other program would. All comparisons are exact: the
 // values of the synthetic sources fit single precision.
 #include "output/vtkhdf_series.hpp"

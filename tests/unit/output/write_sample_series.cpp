@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Writes a small point series, with an unplanned last step, into a folder: what test_xdmf.py has ParaView
 // read.
 #include "output/point_series.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Every write of the list is taken apart: after each of its bytes, in either order, the file must be
 // well-formed XML that shows the list before the change or after it. A kill, or a reader, comes in between
 // bytes at worst.

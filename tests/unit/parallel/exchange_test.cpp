@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Records go where they were sent, in order; sums of shared values are those of all who hold a point.
 #include "parallel/exchange.hpp"
 

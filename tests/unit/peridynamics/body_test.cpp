@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The engine on bodies small enough for closed forms.
 #include "peridynamics/engine/body.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Static equilibria against laws that hold for any discretisation.
 #include "peridynamics/statics/equilibrium.hpp"
 

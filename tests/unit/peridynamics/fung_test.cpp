@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The stiffening bond alone, against its closed forms in long double.
 #include "peridynamics/laws/fung.hpp"
 

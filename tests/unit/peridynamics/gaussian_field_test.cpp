@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The random field against what it must be in closed form, over many seeds: each gives an independent field.
 #include "peridynamics/geometry/gaussian_field.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Walls whose properties differ from place to place, against sums over bonds that are done here once more.
 #include "peridynamics/geometry/heterogeneity.hpp"
 

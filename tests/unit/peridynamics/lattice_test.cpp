@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Cross-sections and bond families: counts known in closed form or from the paper's case, and symmetry.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Eq. (8)'s layer, schedules, the opening gauge and venting.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The linear peridynamic solid: its moduli on the lattice, what it is at nu = 1/4, and its stable time step.
 #include "peridynamics/laws/lps.hpp"
 

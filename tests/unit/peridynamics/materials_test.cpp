@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every law must do once the engine runs it: keys, stable step, energy balance.
 #include <gtest/gtest.h>
 

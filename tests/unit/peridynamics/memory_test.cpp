@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What there is of a wall, by formulas, against what is made of it.
 #include "peridynamics/engine/memory.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Eqs. (2)-(5): the law alone, as a scalar and as the kernel's vectors, against closed forms in long double.
 #include "peridynamics/laws/pmb.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Schedules by table: from files, repeated, against closed forms.
 #include "peridynamics/loads/schedule_table.hpp"
 

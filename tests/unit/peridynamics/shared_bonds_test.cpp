@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Bonds that a thread evaluates once for both of their ends, and those that each end evaluates for itself.
 #include <gtest/gtest.h>
 #include <omp.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Spots given by place: weaker, softer or stiffer, and thinner ones.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/bonds/surface_correction.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "hemodynamics/steady/graph/approximate_cholesky.hpp"
 
 #include <Random123/philox.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// A randomised approximate Cholesky factor of a Laplacian: R. Kyng & S. Sachdeva, Approximate Gaussian
 /// elimination for Laplacians, FOCS 2016; Y. Gao, R. Kyng & D. A. Spielman, Robust and practical solution of
 /// Laplacian equations by approximate elimination, 2023.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// One V-cycle of hypre's BoomerAMG, symmetric, as a preconditioner of conjugate gradients. Rows are spread
 /// over the ranks of a communicator in contiguous ranges; everything but `add` is collective. hypre counts
 /// rows of all ranks together in 32 bits.

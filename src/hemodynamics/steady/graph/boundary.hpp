@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What is known at the rim of a network, checked and sorted by what the solver does with it.
 #pragma once
 

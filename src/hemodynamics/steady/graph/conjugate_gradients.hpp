@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Preconditioned conjugate gradients (Hestenes & Stiefel 1952) for A x = r over the unknowns of a
 /// CoreSystem, stopped on what a user of flows can judge: the worst junction's imbalance against the inflow.
 #pragma once

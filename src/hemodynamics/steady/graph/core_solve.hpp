@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Iterative refinement (Wilkinson 1963) around conjugate gradients: the imbalance of the pressures, which
 /// are carried in two doubles, is the right-hand side of the next correction. What ends it is the imbalance
 /// of the flows that are returned.

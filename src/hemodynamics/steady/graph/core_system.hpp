@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What reduction leaves of a network: junctions of degree three and more whose pressures are unknown, and
 /// junctions of fixed pressure.
 ///

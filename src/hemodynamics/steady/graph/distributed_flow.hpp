@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Steady flow in a network that no single machine holds: graph_flow.hpp over the ranks of a communicator.
 ///
 /// Each rank reduces its own part exactly (reduction.hpp), keeping the junctions that it shares with others.

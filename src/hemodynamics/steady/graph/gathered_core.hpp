@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What is left of all ranks' parts, on every rank, solved there as one small network. All ranks do the same
 /// with the same digits.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Steady flow in an explicit network: Eq. (9) in every vessel, conservation of blood at every junction
 /// (Sec. 3.3).
 #pragma once

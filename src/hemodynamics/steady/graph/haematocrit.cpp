@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "hemodynamics/steady/graph/haematocrit.hpp"
 
 #include <algorithm>

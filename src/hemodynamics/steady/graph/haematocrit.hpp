@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Haematocrit, viscosity and flow of an explicit network, each depending on the others, by iteration to a
 /// fixed point.
 ///

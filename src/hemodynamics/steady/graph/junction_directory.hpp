@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Which junctions of a distributed network are on several ranks, who owns them, and what is known there.
 ///
 /// A rendezvous: every rank reports the ids of its junctions to the ranks id mod P, its directory, which

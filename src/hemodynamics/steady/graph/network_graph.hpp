@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Networks as graphs, read or materialised, and what the solvers that hold one have in common.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Approximate inverses of the Laplacian of a CoreSystem, for conjugate gradients. What a `GraphSolver` names
 /// is one of these:
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The way from a graph and its boundary into a Reduction, and what is said of the flows that come out of it:
 /// for one rank and for several.
 #pragma once

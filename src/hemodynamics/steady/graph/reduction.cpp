@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "hemodynamics/steady/graph/reduction.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Exact reduction of a network of conductances: whatever series, parallel and dead-end rules can remove is
 /// removed, in O(vessels), and later put back. Trees and series-parallel networks (an arterial tree joined
 /// leaf to leaf to its venous mirror) vanish completely.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What is left of all ranks' parts, solved where it is: conjugate gradients over the ranks, preconditioned
 /// by BoomerAMG.
 #pragma once

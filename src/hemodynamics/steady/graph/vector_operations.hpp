@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Operations on long vectors by threads. Sums are formed over blocks of a fixed size and then over blocks,
 /// so the digits do not depend on the number of threads.
 #pragma once

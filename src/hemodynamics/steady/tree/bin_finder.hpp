@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Finding the bins of a histogram for several values at once.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// The tree pair after something happened to a few of its vessels: another resistance (a lumen that widened
 /// or narrowed), or a leak through the wall.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Vector versions of what the implicit trees need: random draws and interval tables, several places at once.
 #pragma once
 

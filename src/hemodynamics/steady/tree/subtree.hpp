@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Steady flow in one subtree pair - a place of the artery tree with some generations below it, and their
 /// mirror in the vein tree - small enough to stay in cache.
 ///

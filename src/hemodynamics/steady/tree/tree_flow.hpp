@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Steady flow in the tree pair, of any size, without storing it (Sec. 3.3; the recursion in subtree.hpp).
 ///
 /// The tree is cut twice: its top (up to 12 generations, known to every rank), up to 2^12 branches that ranks

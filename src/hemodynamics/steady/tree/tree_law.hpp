@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// What a vessel of the tree pair is like as a function of its capacity (network/tree_rules.hpp) alone,
 /// tabulated: the rules, the viscosity law and Eq. (9) in one look-up. What depends on the generation or on
 /// the vessel itself is a factor on its length.

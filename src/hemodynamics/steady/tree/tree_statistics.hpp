@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 /// Statistics of all vessels of a tree pair, gathered while they stream by: totals, and by generation the
 /// mean, least and most of radius, flow, pressure and hoop stress, with histograms. Exact sums: the same for
 /// any ranks and threads.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A leak through an orifice, against closed forms of small networks and against the same tree as a graph.
 #include "hemodynamics/steady/bleeding.hpp"
 

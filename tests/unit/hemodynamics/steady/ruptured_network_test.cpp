@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several leaks and occlusions at once, against closed forms and the orifice law.
 #include "hemodynamics/steady/ruptured_network.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "studies/ensemble/walls.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The screening of a tree against every vessel's risk from the flow in long double: list, counts and
 // histograms. On any ranks, the same.
 #include "studies/screening/screening.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What every solution must satisfy, and a dense reference in long double.
 #pragma once
 

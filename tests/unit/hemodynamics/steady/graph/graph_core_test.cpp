@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Networks with loops that reduction cannot remove, by every solver: closed forms, long double, each other.
 // The stop is relative to the inflow, so tolerances are multiples of it.
 #include <gtest/gtest.h>

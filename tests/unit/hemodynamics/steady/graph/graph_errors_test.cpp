@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What a user can get wrong, and that the message names it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Networks that reduction solves completely: closed forms, and an independent recursion in long double.
 // Tolerances are a few roundings: nothing is subtracted.
 #include "hemodynamics/steady/graph/graph_flow.hpp"

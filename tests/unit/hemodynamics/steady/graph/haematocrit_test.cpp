@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Red cells at bifurcations, and the fixed point of haematocrit, viscosity and flow.
 #include "hemodynamics/steady/graph/haematocrit.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A tree with changed and leaking vessels: by its ways alone, against the whole as an explicit graph.
 #include "hemodynamics/steady/tree/changed_tree.hpp"
 

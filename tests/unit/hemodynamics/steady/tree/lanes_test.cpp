@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Vector versions digit for digit: tables against their scalar, random lanes against Random123.
 #include "hemodynamics/steady/tree/lanes.hpp"
 

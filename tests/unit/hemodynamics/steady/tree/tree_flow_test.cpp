@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Flow in the tree pair against plain recursion in long double: every pressure to 1e-13 of the pressure
 // difference, every flow to 1e-13 of itself. On any ranks and threads, to the last bit.
 #include "hemodynamics/steady/tree/tree_flow.hpp"
