@@ -53,7 +53,7 @@ class Rod {
   Rod(double horizon_ratio, bool double_bonds) {
     Parameters p = test::paper_vessel();
     p.law.name = "fung";
-    p.law.fung_exponent = exponent;
+    p.law.numbers["fung_exponent"] = exponent;
     p.critical_stretch = 0.9;
     p.ends = "free";
     p.inner_radius = 1e-6;

@@ -48,7 +48,7 @@ std::unique_ptr<peridynamics::Body> make_body(const Wall& wall) {
   p.length = wall.rows * *p.spacing;
   p.bond_precision = wall.bonds;
   p.law.name = wall.law;
-  if (wall.law == "fung") p.law.fung_exponent = 5;
+  if (wall.law == "fung") p.law.numbers["fung_exponent"] = 5;
   if (wall.scattered) p.scatter.critical_stretch = p.scatter.stiffness = 0.03;
   peridynamics::BodySetup setup = test::setup_of(p, 1e-9);
   setup.time_step = 0.5 * test::stable_step_of(setup);

@@ -50,7 +50,7 @@ Parameters parameters(const Case& c) {
   p.scatter.stiffness = c.scatter;
   if (c.scatter > 0) p.spots = {{2e-3}, {0.5}, {1e-3}, {0.9}, {1}, {0.5}};
   p.law.name = c.law;
-  if (p.law.name == "fung") p.law.fung_exponent = 10;
+  if (p.law.name == "fung") p.law.numbers["fung_exponent"] = 10;
   if (p.law.name == "lps") p.law.poisson_ratio = 0.4;
   return p;
 }

@@ -4,7 +4,7 @@
 #include "peridynamics/engine/column_body_observe.hpp"
 #include "peridynamics/engine/column_body_restart.hpp"
 #include "peridynamics/engine/column_body_step.hpp"
-#include "peridynamics/laws/with_law.hpp"
+#include "peridynamics/laws/all_laws.hpp"
 
 namespace rhexis::peridynamics {
 

@@ -11,7 +11,7 @@
 #include "peridynamics/bonds/surface_correction.hpp"
 #include "peridynamics/engine/bond_kernel.hpp"
 #include "peridynamics/geometry/heterogeneity.hpp"
-#include "peridynamics/laws/with_law.hpp"
+#include "peridynamics/laws/all_laws.hpp"
 
 namespace rhexis::peridynamics {
 namespace {

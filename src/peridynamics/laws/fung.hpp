@@ -23,9 +23,18 @@
 namespace rhexis::peridynamics {
 
 struct Fung : Pmb {
+  static constexpr std::string_view name = "fung";
+  static constexpr std::string_view meaning = "stiffening as collagen does, exp(a s^2) times as strong";
+  static constexpr std::string_view source = "Fung 1979";
+  static constexpr std::array numbers = {LawNumber{"fung_exponent",
+                                                   "The exponent a",
+                                                   "an exponent, such as 10",
+                                                   {.lower = 0, .upper = 50, .lower_open = true}}};
+
   double exponent;  ///< a > 0
 
   explicit Fung(double a) : exponent(a) {}
+  explicit Fung(const LawChoice& choice) : Fung(choice.number("fung_exponent")) {}
 
   /// exp(a s^2) s / (1 + s).
   template <Number X>
@@ -40,6 +49,9 @@ struct Fung : Pmb {
     const X s = stretch(t);
     return expm1(s * s * X(exponent)) * X(0.5 / exponent);
   }
+
+  /// Logarithm of how many times as hard as a linear one a bond pulls.
+  double hardening(double s) const { return exponent * s * s; }
 
   double energy_ratio(double s) const {
     const double q = exponent * s * s;

@@ -1,60 +1,98 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/laws/law_parameters.hpp"
 
+#include <string_view>
+#include <utility>
+
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "peridynamics/laws/pmb.hpp"
+#include "peridynamics/laws/all_laws.hpp"
 
 namespace rhexis::peridynamics {
+namespace {
 
-ParameterList declare(LawChoice& law) {
-  return {
-      {.key = "material.law",
-       .target = &law.name,
-       .meaning = "How bonds pull: pmb (in proportion to their stretch s, the paper's), fung (stiffening as "
-                  "collagen does, exp(a s^2) times as strong) or lps (linear peridynamic solid: state-based, "
-                  "any Poisson's ratio).",
-       .source = "Eq. (2); Fung 1979; Silling 2007",
-       .choices = {"pmb", "fung", "lps"}},
-      {.key = "material.poisson_ratio",
-       .target = &law.poisson_ratio,
-       .unit = "1",
-       .meaning = "Poisson's ratio; other than 1/4 only with law = \"lps\".",
-       .source = "Silling 2007",
-       .range = {.lower = -1, .upper = 0.4999, .lower_open = true}},
-      {.key = "material.fung_exponent",
-       .target = &law.fung_exponent,
-       .unit = "1",
-       .meaning = "The exponent a; to be given with law = \"fung\", and only there.",
-       .range = {.lower = 0, .upper = 50, .lower_open = true}},
-  };
+std::string key_of(const LawNumber& number) {
+  return "material." + std::string(number.name);
 }
 
-void resolve(const LawChoice& law) {
-  if (law.name != "lps" && law.poisson_ratio != Pmb::poisson_ratio) {
-    throw InputError("material.law = \"" + law.name +
-                         "\" is bond-based: its Poisson's ratio is 1/4; for another take \"lps\"",
-                     "material.poisson_ratio");
-  }
-  if (law.name != "fung") {
-    if (law.fung_exponent)
-      throw InputError("only for material.law = \"fung\", not \"" + law.name + "\"",
-                       "material.fung_exponent");
-    return;
-  }
-  if (!law.fung_exponent)
-    throw InputError("material.law = \"fung\" needs an exponent, such as 10", "material.fung_exponent");
+std::string in_quotes(std::string_view name) {
+  return "\"" + std::string(name) + "\"";
 }
 
-void check_hardening(const LawChoice& law, double critical_stretch) {
-  if (law.name != "fung") return;
-  const double at_break = *law.fung_exponent * critical_stretch * critical_stretch;
-  if (at_break > 10) {
-    throw InputError(
-        "a bond would pull exp(" + text(at_break) +
-            ") times as hard as a linear one before it breaks; a critical_stretch^2 may be 10 at most",
-        "material.fung_exponent");
+/// material.law: its meaning, sources and choices are those of the laws.
+Parameter law_key(LawChoice& choice) {
+  Parameter key{.key = "material.law", .target = &choice.name, .meaning = "How bonds pull: "};
+  std::vector<std::string> meanings;
+  for_each_law([&]<class Law>() {
+    key.choices.emplace_back(Law::name);
+    meanings.push_back(std::string(Law::name) + " (" + std::string(Law::meaning) + ")");
+    key.source += (key.source.empty() ? "" : "; ") + std::string(Law::source);
+  });
+  for (std::size_t i = 0; i < meanings.size(); ++i) {
+    const bool last = i + 1 == meanings.size();
+    key.meaning += (i == 0 ? "" : last ? " or " : ", ") + meanings[i];
   }
+  key.meaning += ".";
+  return key;
+}
+
+}  // namespace
+
+ParameterList declare(LawChoice& choice) {
+  ParameterList keys{law_key(choice),
+                     {.key = "material.poisson_ratio",
+                      .target = &choice.poisson_ratio,
+                      .unit = "1",
+                      .meaning = "Poisson's ratio; other than 1/4 only with law = \"lps\".",
+                      .source = "Silling 2007",
+                      .range = {.lower = -1, .upper = 0.4999, .lower_open = true}}};
+  for_each_law([&]<class Law>() {
+    for (const LawNumber& number : Law::numbers) {
+      keys.push_back({.key = key_of(number),
+                      .target = &choice.numbers[std::string(number.name)],
+                      .unit = "1",
+                      .meaning = std::string(number.meaning) +
+                                 "; to be given with law = " + in_quotes(Law::name) + ", and only there.",
+                      .range = number.range});
+    }
+  });
+  return keys;
+}
+
+void resolve(const LawChoice& choice) {
+  for_each_law([&]<class Law>() {
+    const bool chosen = choice.name == Law::name;
+    if (chosen && !Law::state_based && choice.poisson_ratio != Pmb::poisson_ratio) {
+      throw InputError("material.law = " + in_quotes(choice.name) +
+                           " is bond-based: its Poisson's ratio is 1/4; for another take \"lps\"",
+                       "material.poisson_ratio");
+    }
+    for (const LawNumber& number : Law::numbers) {
+      const auto found = choice.numbers.find(std::string(number.name));
+      const bool given = found != choice.numbers.end() && found->second;
+      if (given && !chosen)
+        throw InputError(
+            "only for material.law = " + in_quotes(Law::name) + ", not " + in_quotes(choice.name),
+            key_of(number));
+      if (chosen && !given)
+        throw InputError("material.law = " + in_quotes(Law::name) + " needs " + std::string(number.example),
+                         key_of(number));
+    }
+  });
+}
+
+void check_hardening(const LawChoice& choice, double critical_stretch) {
+  with_law(choice, [&]<class Law>(const Law& law) {
+    if constexpr (requires { law.hardening(critical_stretch); }) {
+      const double at_break = law.hardening(critical_stretch);
+      if (at_break > 10) {
+        throw InputError("a bond would pull exp(" + text(at_break) +
+                             ") times as hard as a linear one before it breaks; a critical_stretch^2 may be "
+                             "10 at most",
+                         key_of(Law::numbers.front()));
+      }
+    }
+  });
 }
 
 }  // namespace rhexis::peridynamics

@@ -41,10 +41,15 @@
 namespace rhexis::peridynamics {
 
 struct Lps : Pmb {
+  static constexpr std::string_view name = "lps";
+  static constexpr std::string_view meaning = "linear peridynamic solid: state-based, any Poisson's ratio";
+  static constexpr std::string_view source = "Silling 2007";
   static constexpr bool state_based = true;
+
   double nu;  ///< Poisson's ratio
 
   explicit Lps(double ratio) : nu(ratio) {}
+  explicit Lps(const LawChoice& choice) : Lps(choice.poisson_ratio) {}
 
   /// m of a whole family.
   static double weighted_volume(double horizon) {

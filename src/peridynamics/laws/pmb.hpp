@@ -8,16 +8,26 @@
 /// the micropotential w = c |xi| s^2 / 2 (J/m6), and a bond breaks, Eq. (5), when s >= s0.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
+#include "peridynamics/laws/law_parameters.hpp"
 #include "peridynamics/laws/stretch.hpp"
 
 namespace rhexis::peridynamics {
 
 struct Pmb {
+  static constexpr std::string_view name = "pmb";
+  static constexpr std::string_view meaning = "in proportion to their stretch s, the paper's";
+  static constexpr std::string_view source = "Eq. (2)";
+  static constexpr std::array<LawNumber, 0> numbers = {};
   static constexpr bool state_based = false;
   static constexpr double poisson_ratio = 0.25;
+
+  Pmb() = default;
+  explicit Pmb(const LawChoice&) {}
 
   /// g(t): force over c (xi + eta) / |xi|.
   template <Number X>

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "peridynamics/laws/with_law.hpp"
+#include "peridynamics/laws/all_laws.hpp"
 
 namespace rhexis::peridynamics {
 

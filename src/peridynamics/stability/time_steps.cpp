@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "peridynamics/geometry/heterogeneity.hpp"
-#include "peridynamics/laws/with_law.hpp"
+#include "peridynamics/laws/all_laws.hpp"
 #include "peridynamics/stability/bond_step.hpp"
 #include "peridynamics/stability/dilatation_bound.hpp"
 

@@ -10,7 +10,7 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "peridynamics/laws/with_law.hpp"
+#include "peridynamics/laws/all_laws.hpp"
 
 namespace rhexis::peridynamics {
 namespace {

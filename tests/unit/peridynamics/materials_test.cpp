@@ -16,7 +16,7 @@ namespace {
 Parameters vessel_of(const std::string& law, double length = 1e-3) {
   Parameters p = test::paper_vessel(length);
   p.law.name = law;
-  if (law == "fung") p.law.fung_exponent = 10;
+  if (law == "fung") p.law.numbers["fung_exponent"] = 10;
   if (law == "lps") p.law.poisson_ratio = 0.4;
   return p;
 }
@@ -39,10 +39,10 @@ std::string key_at_fault(Parameters p) {
 TEST(Materials, KeysOfOneLawAreErrorsWithAnother) {
   EXPECT_EQ(key_at_fault(vessel_of("fung")), "");
   Parameters p = vessel_of("fung");
-  p.law.fung_exponent.reset();
+  p.law.numbers.clear();
   EXPECT_EQ(key_at_fault(p), "material.fung_exponent");
   p = vessel_of("pmb");
-  p.law.fung_exponent = 10;
+  p.law.numbers["fung_exponent"] = 10;
   EXPECT_EQ(key_at_fault(p), "material.fung_exponent");
   p = vessel_of("fung");
   p.critical_stretch = 1.1;  // exp(12.1) before it breaks
@@ -64,7 +64,7 @@ TEST(Materials, StiffeningBondsTearByTheirOwnEnergy) {
   p.critical_stretch.reset();
   p.energy_release_rate = 300;
   resolve(p);
-  const double a = *p.law.fung_exponent, s0 = *p.critical_stretch;
+  const double a = p.law.number("fung_exponent"), s0 = *p.critical_stretch;
   const double c = Pmb::bond_constant(p.young_modulus, *p.horizon);
   EXPECT_GT(a * s0 * s0, 0.5) << "too little stiffening to mean anything";
   EXPECT_NEAR(c * std::numbers::pi * std::pow(*p.horizon, 5) / 10 * std::expm1(a * s0 * s0) / a, 300, 1e-9);
@@ -83,7 +83,7 @@ TEST(Materials, EnergyReleaseRateIsOfBondBasedLaws) {
 TEST(Materials, StiffeningBondsNeedAShorterStep) {
   // At s0 = 0.25 and a = 8 a bond is 2 exp(1/2) times as stiff as a linear one.
   Parameters p = vessel_of("fung");
-  p.law.fung_exponent = 8;
+  p.law.numbers["fung_exponent"] = 8;
   EXPECT_NEAR(stable_step(vessel_of("pmb")) / stable_step(p), std::sqrt(2 * std::exp(0.5)), 1e-12);
 }
 
