@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
+#include <string>
 
 namespace rhexis::peridynamics {
 namespace {
@@ -26,7 +28,10 @@ Domain::Domain(const Lattice& lattice, const BondFamilies& families, const paral
   layout_.first_row = partition.first_row(rank);
   layout_.row_count = partition.past_row(rank) - layout_.first_row;
 
-  // A cache line of rows in front keeps owned rows aligned and holds the halo rows (reach is at most 12).
+  // A cache line of rows in front keeps owned rows aligned and holds the halo rows.
+  if (reach_ > block_rows)
+    throw std::invalid_argument("bonds reach " + std::to_string(reach_) + " rows; a halo has room for " +
+                                std::to_string(block_rows));
   front_ = block_rows;
   stride_ = front_ + static_cast<std::size_t>((blocks() + 1) * block_rows);
   // Strides that are a multiple of a page would map all columns to the same cache sets.

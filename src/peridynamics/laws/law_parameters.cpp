@@ -16,7 +16,7 @@ std::string key_of(const LawNumber& number) {
 }
 
 std::string in_quotes(std::string_view name) {
-  return "\"" + std::string(name) + "\"";
+  return '"' + std::string(name) + '"';
 }
 
 /// material.law: its meaning, sources and choices are those of the laws.
