@@ -215,7 +215,7 @@ TEST(HeterogeneousBody, StableStepIsThatOfTheMostExtensiblePlace) {
     Parameters nominal = test::paper_vessel(4e-3);
     nominal.law.name = law;
     Parameters spotted = nominal, uniform = nominal;
-    spotted.spots = {{2e-3}, {0.0}, {1e3}, {10.0}, {1.0}, {1.0}};
+    spotted.spots.list = {{.position = 2e-3, .radius = 1e3, .critical_stretch = 10}};
     uniform.critical_stretch = 10 * *spotted.critical_stretch;
     const auto stable = [](Parameters& p) {
       resolve(p);
