@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
+#include "coupling/network_load.hpp"
 #include "output/checkpoint.hpp"
 #include "parallel/together.hpp"
 #include "runtime/version.hpp"
@@ -40,7 +41,8 @@ void for_each_array(const peridynamics::Body& body, Saved& saved, const Visit& v
 /// Names, members and the range that makes sense of all numbers but those that are compared, once for writing
 /// and for reading. SI units.
 template <class Visit>
-void VesselRun::for_each_number(peridynamics::Body::Saved& saved, const Visit& visit) {
+void VesselRun::for_each_number(peridynamics::Body::Saved& saved, peridynamics::RuptureEvents& rupture,
+                                peridynamics::LoadState& load, const Visit& visit) {
   visit("frame_phase", saved.frame_phase, 0, largest);
   visit("wrapped", saved.wrapped);
   visit("first_kick_pending", saved.first_kick_pending);
@@ -51,31 +53,35 @@ void VesselRun::for_each_number(peridynamics::Body::Saved& saved, const Visit& v
   visit("load_speed", saved.load_speed, 0, largest);
   for (std::size_t k = 0; k < 3; ++k) visit(fmt::format("frame_{}", axes[k]), saved.frame[k]);
   // Venting only lowers the load; a network may also raise it, where the lumen widens.
-  visit("pressure_share", vent_now_, 0, coupling_ != nullptr && coupling_->coupled().two_way() ? largest : 1);
-  visit("least_pressure_share", least_vent_, 0, 1);
-  visit("opening_area", open_area_, 0, largest);
-  visit("resistance_factor", resistance_factor_, 0, largest);
-  visit("told_of_crushed_bonds", crushing_was_said_);
-  visit("told_of_turbulence", turbulence_was_said_);
-  visit("first_bond_break_time", results_.first_bond_break_s, 0, largest);
-  visit("rupture_onset_time", results_.rupture_onset_s, 0, largest);
-  visit("pressure_at_onset", results_.pressure_at_onset_Pa, 0, largest);
-  visit("blood_pressure_at_onset", results_.blood_pressure_at_onset_Pa, 0, largest);
-  visit("max_displacement_at_onset", results_.max_displacement_at_onset_m, 0, largest);
+  visit("pressure_share", load.share, 0,
+        coupling_ != nullptr && coupling_->coupled().two_way() ? largest : 1);
+  visit("least_pressure_share", load.least_share, 0, 1);
+  visit("opening_area", load.open_area, 0, largest);
+  visit("resistance_factor", load.resistance_factor, 0, largest);
+  visit("told_of_crushed_bonds", crushing_was_told_);
+  visit("told_of_turbulence", turbulence_was_told_);
+  visit("first_bond_break_time", rupture.first_break, 0, largest);
+  visit("rupture_onset_time", rupture.onset, 0, largest);
+  visit("pressure_at_onset", rupture.pressure, 0, largest);
+  visit("blood_pressure_at_onset", rupture.blood_pressure, 0, largest);
+  visit("max_displacement_at_onset", rupture.max_displacement, 0, largest);
 }
 
 void VesselRun::write_checkpoint(long step) {
   const Stopwatch watch(session_.spent().output);
-  peridynamics::Body::Saved saved = body_->save();
+  const peridynamics::Body& body = simulation_->body();
+  peridynamics::Body::Saved saved = body.save();
+  peridynamics::RuptureEvents rupture = simulation_->rupture();
+  peridynamics::LoadState load = simulation_->load();
   const std::filesystem::path path = session_.folder().claim(checkpoint_name(step));
   output::CheckpointWriter file(path, runtime::version(), comm_);
   write_input(file, c_);
   file.write(step_name, std::int64_t{step});
   file.write("time_step", c_.time_step);
-  file.write("scheduled_pressure", pressure_at(step));
-  for_each_number(saved,
+  file.write("scheduled_pressure", simulation_->scheduled_pressure_at(step));
+  for_each_number(saved, rupture, load,
                   [&](const std::string& name, const auto& value, auto...) { file.write(name, value); });
-  for_each_array(*body_, saved, [&](const std::string& name, const auto& layout, const auto& values) {
+  for_each_array(body, saved, [&](const std::string& name, const auto& layout, const auto& values) {
     file.write(name, layout, values);
   });
   if (coupling_ != nullptr) coupling_->save(file);
@@ -98,10 +104,10 @@ void VesselRun::compare_with(output::CheckpointReader& file) {
                     time_step, c_.time_step));
   }
   file.read("scheduled_pressure", pressure);
-  if (pressure != pressure_at(first_step_)) {
+  if (pressure != simulation_->scheduled_pressure_at(first_step_)) {
     c_.warnings.push_back(fmt::format("the schedule had {} at step {}, and now has {}",
                                       quantity(pressure, "Pa"), first_step_,
-                                      quantity(pressure_at(first_step_), "Pa")));
+                                      quantity(simulation_->scheduled_pressure_at(first_step_), "Pa")));
   }
 }
 
@@ -119,19 +125,30 @@ void VesselRun::read_checkpoint() {
     file.refuse(fmt::format("the checkpoint is of step {}, this run ends at step {}; raise time.end",
                             first_step_, c_.steps));
   }
-  if (coupling_ != nullptr) coupling_->restore(file, time_at(first_step_), session_.options().directory);
+  if (coupling_ != nullptr)
+    coupling_->restore(file, simulation_->time_at(first_step_), session_.options().directory);
   compare_with(file);
-  peridynamics::Body::Saved saved = body_->save();
-  for_each_number(
-      saved, [&](const std::string& name, auto& value, auto... range) { file.read(name, value, range...); });
-  for_each_array(*body_, saved, [&](const std::string& name, const auto& layout, auto& values) {
+  peridynamics::Body& body = simulation_->body();
+  peridynamics::Body::Saved saved = body.save();
+  peridynamics::RuptureEvents rupture;
+  peridynamics::LoadState load;
+  for_each_number(saved, rupture, load, [&](const std::string& name, auto& value, auto... range) {
+    file.read(name, value, range...);
+  });
+  for_each_array(body, saved, [&](const std::string& name, const auto& layout, auto& values) {
     file.read(name, layout, values);
   });
-  body_->restore(saved);
-  if (!std::isfinite(body_->save().external_work[0]))
+  body.restore(saved);
+  if (!std::isfinite(body.save().external_work[0]))
     file.refuse("'external_work_0' makes no sense: it is beyond all energies of this body");
-  if (coupling_ != nullptr) take_load();
-  vent_next_ = vent_now_;
+  if (coupling_ != nullptr) coupling::NetworkLoad(coupling_->coupled()).start(*simulation_);
+  load.next_share = load.share;
+  simulation_->resume(first_step_, rupture, load);
+  results_.first_bond_break_s = rupture.first_break;
+  results_.rupture_onset_s = rupture.onset;
+  results_.pressure_at_onset_Pa = rupture.pressure;
+  results_.blood_pressure_at_onset_Pa = rupture.blood_pressure;
+  results_.max_displacement_at_onset_m = rupture.max_displacement;
   // What is continued is read before anything is written.
   parallel::on_root<InputError>(
       comm_, [&] { output::kept_history(session_.options().directory / "history.csv", first_step_ - 1); });

@@ -23,9 +23,9 @@ void VesselRun::print_header() {
   if (coupling_ == nullptr) session_.print_title();
   session_.warn(c_.warnings);
   if (!session_.options().restart.empty()) {
-    session_.console().item(
-        "restart", fmt::format("from step {} ({}) of {}", first_step_, quantity(time_at(first_step_), "s"),
-                               session_.options().restart.string()));
+    session_.console().item("restart", fmt::format("from step {} ({}) of {}", first_step_,
+                                                   quantity(simulation_->time_at(first_step_), "s"),
+                                                   session_.options().restart.string()));
   }
   session_.console().item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
                                                 quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
@@ -33,8 +33,9 @@ void VesselRun::print_header() {
   session_.console().item(
       "particles",
       fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}", grouped(*results_.particles),
-                  lattice_.section.size(), lattice_.rows, v.cross_section, quantity(lattice_.spacing, "m"),
-                  quantity(lattice_.horizon, "m")));
+                  simulation_->lattice().section.size(), simulation_->lattice().rows, v.cross_section,
+                  quantity(simulation_->lattice().spacing, "m"),
+                  quantity(simulation_->lattice().horizon, "m")));
   const peridynamics::Scatter& scatter = v.scatter;
   if (!scatter.none()) {
     session_.console().item("scatter",
@@ -43,8 +44,9 @@ void VesselRun::print_header() {
                                         quantity(*scatter.correlation_length, "m"), scatter.seed));
   }
   if (!v.spots.list.empty()) {
-    session_.console().item("spots", fmt::format("{}, which leave out {} particles", v.spots.list.size(),
-                                                 grouped(lattice_.particles() - *results_.particles)));
+    session_.console().item("spots",
+                            fmt::format("{}, which leave out {} particles", v.spots.list.size(),
+                                        grouped(simulation_->lattice().particles() - *results_.particles)));
   }
   session_.console().item("bonds",
                           fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
@@ -83,13 +85,13 @@ void VesselRun::print_summary() {
       "at the end",
       fmt::format("largest displacement {}, largest damage {:.0f} %, opening {:.3g} mm2",
                   quantity(*r.max_displacement_m, "m", 3), 100 * *r.max_damage, *r.opening_area_m2 * 1e6));
-  if (least_vent_ < 1) {
-    session_.console().item(
-        "venting",
-        fmt::format("the opening let the pressure fall to {:.0f} % of the scheduled one", 100 * least_vent_));
+  if (simulation_->load().least_share < 1) {
+    session_.console().item("venting",
+                            fmt::format("the opening let the pressure fall to {:.0f} % of the scheduled one",
+                                        100 * simulation_->load().least_share));
   }
   session_.console().item("energy", fmt::format("balance off by {:.1e} of the work done", *r.energy_drift));
-  const long steps = step_ - first_step_;
+  const long steps = step() - first_step_;
   session_.console().item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s, both ends counted",
                                                *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
                                                p.bond_evaluations_per_s.value_or(0)));

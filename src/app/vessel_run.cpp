@@ -13,33 +13,29 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
+#include "coupling/network_load.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "peridynamics/engine/bond_kernel.hpp"
-#include "peridynamics/loads/schedule.hpp"
+#include "peridynamics/monitors/opening.hpp"
+#include "peridynamics/simulation/equilibrium_start.hpp"
 #include "runtime/interrupt.hpp"
 #include "runtime/version.hpp"
 
 namespace rhexis::app {
 namespace {
 
-/// Steps between measurements of the opening, once bonds have begun to break.
-constexpr long venting_interval = 10;
-
-/// What ranks tell each other after every step, as bits; those of signals come above.
-enum Flag : std::uint64_t { broken = 1, ruptured = 2, unstable = 4, signal_0 = 8 };
-
 struct UnstableError : RunError {
   using RunError::RunError;
 };
 
+/// A signal as a bit of what ranks tell each other after every step.
 std::uint64_t flag_of_signal(int signal) {
-  return signal == 0 ? 0 : Flag::signal_0 << signal;
+  return signal == 0 ? 0 : std::uint64_t{1} << signal;
 }
 
 /// One of the signals that ranks have got, the same on all; 0 where there is none.
 int signal_in(std::uint64_t flags) {
-  const std::uint64_t signals = flags / Flag::signal_0;
-  return signals == 0 ? 0 : std::countr_zero(signals);
+  return flags == 0 ? 0 : std::countr_zero(flags);
 }
 
 }  // namespace
@@ -54,10 +50,6 @@ VesselRun::VesselRun(Configuration configuration, runtime::RunOptions options, p
 
 VesselRun::~VesselRun() = default;
 
-double VesselRun::pressure_at(long step) const {
-  return peridynamics::scheduled_pressure(c_.vessel, time_at(step));
-}
-
 void VesselRun::prepare() {
   session_.open_folder(folder_plan(c_, session_.options()));
   build();
@@ -65,7 +57,7 @@ void VesselRun::prepare() {
 }
 
 runtime::Ending VesselRun::run() {
-  if (!body_) prepare();
+  if (!simulation_) prepare();
   const runtime::Ending ending = session_.recorded([&] {
     session_.start_pictures();
     open_results();
@@ -75,7 +67,7 @@ runtime::Ending VesselRun::run() {
     warn_of_odd_openings();
     if (series_) series_->finish();
     if (coupling_ != nullptr) {
-      coupling_->coupled().count_leak(time_at(step_));
+      coupling_->coupled().count_leak(simulation_->time());
       results_.coupling = coupling_->results();
     }
     session_.finish_pictures();
@@ -87,22 +79,23 @@ runtime::Ending VesselRun::run() {
 }
 
 void VesselRun::build() {
-  lattice_ = peridynamics::make_lattice(c_.vessel);
-  const peridynamics::EndCondition ends = peridynamics::end_condition(c_.vessel);
-  const bool periodic = ends == peridynamics::EndCondition::axial_periodic;
-  results_.family_max = peridynamics::largest_family(lattice_, *c_.families, periodic);
+  simulation_ = std::make_unique<peridynamics::VesselSimulation>(c_.vessel, c_.families, c_.time_step, comm_);
+  const bool periodic = peridynamics::end_condition(c_.vessel) == peridynamics::EndCondition::axial_periodic;
+  results_.family_max = peridynamics::largest_family(simulation_->lattice(), *c_.families, periodic);
   results_.time_step_s = c_.time_step;
   results_.stable_time_step_s = c_.stable_time_step;
-  peridynamics::BodySetup setup = peridynamics::make_setup(c_.vessel, lattice_, c_.families, c_.time_step);
-  const peridynamics::ThinSpots thin_spots = setup.thin_spots;
-  body_ = peridynamics::make_body(std::move(setup), comm_);
-  results_.particles = lattice_.particles() - thin_spots.absent();
-  results_.bonds = body_->bonds();
-  source_ = std::make_unique<peridynamics::ParticleSource>(*body_);
-  gauge_ = std::make_unique<peridynamics::OpeningGauge>(lattice_, *body_, comm_, ends, thin_spots);
-  lumen_ = std::make_unique<peridynamics::LumenGauge>(lattice_, *body_, comm_);
+  results_.particles = simulation_->particles();
+  results_.bonds = simulation_->body().bonds();
+  source_ = std::make_unique<peridynamics::ParticleSource>(simulation_->body());
+  if (coupling_ != nullptr && coupling_->coupled().two_way()) {
+    load_ = std::make_unique<coupling::NetworkLoad>(coupling_->coupled());
+  } else if (c_.vessel.venting != "none") {
+    load_ = std::make_unique<peridynamics::VentedLoad>(*c_.vessel.supply_area);
+  } else {
+    load_ = std::make_unique<peridynamics::LoadSource>();
+  }
   if (coupling_ == nullptr) return;
-  take_load();
+  coupling::NetworkLoad(coupling_->coupled()).start(*simulation_);
   results_.network = coupling_->network_record();
   results_.coupling = coupling_->results();
 }
@@ -138,14 +131,14 @@ void VesselRun::open_results() {
   plan.steps.push_back(first_step_);
   std::copy_if(c_.output_steps.begin(), c_.output_steps.end(), std::back_inserter(plan.steps),
                [&](long step) { return step > first_step_; });
-  series_.emplace(plan, body_->layout(), comm_);
+  series_.emplace(plan, simulation_->body().layout(), comm_);
   series_->write_reference(source_->reference_positions());
 }
 
 runtime::Work VesselRun::work() const {
-  return {.bond_evaluations = start_bond_evaluations_ + body_->bond_evaluations(),
+  return {.bond_evaluations = start_bond_evaluations_ + simulation_->body().bond_evaluations(),
           .flop_per_evaluation = 0.5 * peridynamics::flop_per_bond,
-          .traffic = body_->traffic(),
+          .traffic = simulation_->body().traffic(),
           .network_flop = coupling_ != nullptr ? coupling_->flow().flop : std::nullopt};
 }
 
@@ -158,48 +151,62 @@ bool VesselRun::pictures_due(long step, bool with_output) {
   const bool due =
       c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : with_output;
   // Scripts are asked last: the answer may need all ranks.
-  return due && session_.pictures()->pipeline->wants(step + session_.pictures()->steps_before,
-                                                     time_at(step) + session_.pictures()->seconds_before);
+  return due && session_.pictures()->pipeline->wants(
+                    step + session_.pictures()->steps_before,
+                    simulation_->time_at(step) + session_.pictures()->seconds_before);
+}
+
+void VesselRun::start_at_equilibrium() {
+  const Stopwatch watch(session_.spent().solve);
+  const peridynamics::Equilibrium found =
+      peridynamics::start_at_equilibrium(*simulation_, c_.families, c_.time_step, comm_);
+  start_bond_evaluations_ = found.bond_evaluations;
+  session_.console().item(
+      "start", fmt::format("equilibrium under {}: {} steps of relaxation, residual {:.1e}, strain energy {}",
+                           quantity(c_.vessel.equilibrium_pressure, "Pa"), found.steps, found.residual,
+                           quantity(found.strain_energy, "J")));
 }
 
 void VesselRun::observe(long step, bool with_output, bool with_pictures) {
-  const double pressure = pressure_at(step) * vent_now_;
+  peridynamics::Body& body = simulation_->body();
+  const double pressure = simulation_->pressure(), time = simulation_->time();
   {
     const Stopwatch watch(session_.spent().solve);
-    body_->find_forces();  // once, for what is observed and for the next step
+    body.find_forces();  // once, for what is observed and for the next step
   }
   {
     const Stopwatch watch(with_output ? session_.spent().output : session_.spent().insitu);
-    const peridynamics::Observation& observation = body_->observe(pressure);
-    source_->moment(step, time_at(step), observation, {{"pressure", "Pa", pressure}});
+    const peridynamics::Observation& observation = body.observe(pressure);
+    source_->moment(step, time, observation, {{"pressure", "Pa", pressure}});
   }
   // A restart's first moment begins its own series of particles; in history.csv, which it continues, it would
   // be one row more than a run in one go has.
   if (with_output && (output_due(step) || signal_ != 0)) {
     const Stopwatch watch(session_.spent().output);
-    const peridynamics::Totals t = body_->totals();
+    const peridynamics::Totals t = body.totals();
+    double& open_area = simulation_->load().open_area;
     // Beside a hole particles have lost about half of their bonds.
-    open_area_ = t.max_damage >= peridynamics::rupture_damage ? gauge_->area() : 0;
+    open_area = t.max_damage >= peridynamics::rupture_damage ? simulation_->opening().area() : 0;
     const double leak = coupling_ != nullptr && coupling_->coupled().two_way()
                             ? coupling_->coupled().state().leak
-                            : peridynamics::orifice_flow(c_.vessel.discharge_coefficient, open_area_,
-                                                         pressure, c_.vessel.blood_density);
+                            : peridynamics::orifice_flow(c_.vessel.discharge_coefficient, open_area, pressure,
+                                                         c_.vessel.blood_density);
     if (coupling_ != nullptr) results_.coupling = coupling_->results();
     results_.steps = step;
-    results_.simulated_s = time_at(step);
+    results_.simulated_s = time;
     results_.max_displacement_m = t.max_displacement;
     results_.max_damage = t.max_damage;
     results_.rupture_length_m = t.rupture_length;
-    results_.opening_area_m2 = open_area_;
+    results_.opening_area_m2 = open_area;
     check_balance(step, t);
     warn_of_crushed_bonds(step, t);
     const double energy = t.kinetic + t.strain + t.fracture;
     const double scale = std::max(std::abs(t.external_work), energy);
     results_.energy_drift = scale > 0 ? (energy - t.external_work) / scale : 0.0;
     session_.record().know(results_);
-    history_->append({step, time_at(step), pressure, t.max_displacement, t.max_damage,
+    history_->append({step, time, pressure, t.max_displacement, t.max_damage,
                       static_cast<long>(t.broken_bonds), t.kinetic, t.strain, t.external_work,
-                      t.rupture_length, leak, t.fracture, open_area_});
+                      t.rupture_length, leak, t.fracture, open_area});
   }
   if (with_output && series_) {
     const Stopwatch watch(session_.spent().output);
@@ -217,14 +224,14 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
 /// be.
 void VesselRun::show(bool with_output, bool with_pictures) {
   try {
-    observe(step_, with_output, with_pictures);
+    observe(step(), with_output, with_pictures);
   } catch (const UnstableError&) {  // a state of no use
     throw;
   } catch (const RunError&) {
     // A restart exchanges anew at its first step.
-    const bool has_exchanged = coupling_ != nullptr && coupling_->coupled().due(step_);
+    const bool has_exchanged = coupling_ != nullptr && coupling_->coupled().due(step());
     try {
-      if (!has_exchanged) write_checkpoint(step_);
+      if (!has_exchanged) write_checkpoint(step());
       if (!last_checkpoint_.empty())
         session_.console().important(
             fmt::format("  failed; go on with --restart {}", last_checkpoint_.string()));
@@ -240,13 +247,15 @@ void VesselRun::warn_of_odd_openings() {
   if (!results_.rupture_onset_s) return;
   const peridynamics::Parameters& v = c_.vessel;
   const double wall = 2 * std::numbers::pi * v.inner_radius * v.length;
-  if (open_area_ > wall) {
+  const double open_area = simulation_->load().open_area;
+  if (open_area > wall) {
     session_.warn(
         fmt::format("the opening at the end, {:.3g} mm2, is larger than the lumen's surface of the simulated "
                     "wall, {:.3g} mm2: fragments have flown apart, and it is no hole in a wall any more",
-                    1e6 * open_area_, 1e6 * wall));
+                    1e6 * open_area, 1e6 * wall));
   }
-  if (v.venting == "orifice" && least_vent_ == 1 && *results_.rupture_length_m > 0.9 * v.length) {
+  if (v.venting == "orifice" && simulation_->load().least_share == 1 &&
+      *results_.rupture_length_m > 0.9 * v.length) {
     session_.warn(
         "the wall is ruptured over its length, but no row of it ever showed a gap, so the load was not "
         "vented: a wall that tears all around at once counts as open late, or never");
@@ -257,7 +266,7 @@ std::string VesselRun::unstable_message(long step, const std::string& sign) cons
   return fmt::format(
       "the run became unstable by step {} ({}): {}; use a smaller time.step (now {}; {} is stable "
       "while strains are small)",
-      step, quantity(time_at(step), "s"), sign, quantity(c_.time_step, "s"),
+      step, quantity(simulation_->time_at(step), "s"), sign, quantity(c_.time_step, "s"),
       quantity(c_.stable_time_step, "s"));
 }
 
@@ -278,114 +287,79 @@ bool VesselRun::balance_due(long step) const {
 
 /// Once: such bonds cost accuracy, which the balance of energy shows, before they cost stability.
 void VesselRun::warn_of_crushed_bonds(long step, const peridynamics::Totals& t) {
-  if (t.crushed_bonds == 0 || crushing_was_said_) return;
-  crushing_was_said_ = true;
-  session_.warn(
-      fmt::format("at {} {} bonds are compressed to less than half their length, where {} is no longer known "
-                  "to be stable: the run will stop if energy exceeds the work done by a tenth; a smaller "
-                  "time.step is safer",
-                  quantity(time_at(step), "s"), grouped(t.crushed_bonds), quantity(c_.time_step, "s")));
+  if (t.crushed_bonds == 0 || crushing_was_told_) return;
+  crushing_was_told_ = true;
+  session_.warn(fmt::format(
+      "at {} {} bonds are compressed to less than half their length, where {} is no longer known "
+      "to be stable: the run will stop if energy exceeds the work done by a tenth; a smaller "
+      "time.step is safer",
+      quantity(simulation_->time_at(step), "s"), grouped(t.crushed_bonds), quantity(c_.time_step, "s")));
 }
 
-/// Notes what the forces' evaluation at `step` brought about, on any rank.
-void VesselRun::take_notice(long step, std::uint64_t flags) {
-  if (flags & Flag::unstable) {
-    throw UnstableError(unstable_message(step, "a particle outran what the load can do"));
-  }
-  if (flags & Flag::broken && !results_.first_bond_break_s) results_.first_bond_break_s = time_at(step);
-  if (flags & Flag::ruptured && !results_.rupture_onset_s) {
-    results_.rupture_onset_s = time_at(step);
-    results_.pressure_at_onset_Pa = pressure_at(step) * vent_now_;
-    results_.blood_pressure_at_onset_Pa = *results_.pressure_at_onset_Pa / lumen_->largest_stretch();
-    results_.max_displacement_at_onset_m = body_->max_displacement();
-    session_.console().line(
-        fmt::format("  rupture begins at {} under {} on the reference area (a blood pressure of {}), largest "
-                    "displacement {}",
-                    quantity(time_at(step), "s"), quantity(*results_.pressure_at_onset_Pa, "Pa"),
-                    quantity(*results_.blood_pressure_at_onset_Pa, "Pa"),
-                    quantity(*results_.max_displacement_at_onset_m, "m", 3)));
-  }
+/// Tells of what a step, or the end, has shown.
+void VesselRun::record_events(const peridynamics::VesselSimulation::Report& report) {
+  if (report.unstable)
+    throw UnstableError(unstable_message(step(), "a particle outran what the load can do"));
+  const peridynamics::RuptureEvents& rupture = simulation_->rupture();
+  results_.first_bond_break_s = rupture.first_break;
+  results_.rupture_onset_s = rupture.onset;
+  results_.pressure_at_onset_Pa = rupture.pressure;
+  results_.blood_pressure_at_onset_Pa = rupture.blood_pressure;
+  results_.max_displacement_at_onset_m = rupture.max_displacement;
+  if (!report.ruptures) return;
+  session_.console().line(
+      fmt::format("  rupture begins at {} under {} on the reference area (a blood pressure of {}), largest "
+                  "displacement {}",
+                  quantity(*rupture.onset, "s"), quantity(*rupture.pressure, "Pa"),
+                  quantity(*rupture.blood_pressure, "Pa"), quantity(*rupture.max_displacement, "m", 3)));
 }
 
-/// Settles what share of the pressure is left at the next step.
-void VesselRun::vent(long step) {
-  if (c_.vessel.venting == "none" || !results_.rupture_onset_s || step % venting_interval != 0) return;
-  open_area_ = gauge_->area();
-  vent_next_ = peridynamics::venting_factor(open_area_, *c_.vessel.supply_area);
-  least_vent_ = std::min(least_vent_, vent_next_);
-}
-
-/// Takes over what the network says of the load: of its size from the next step on, as with venting, so that
-/// the work done stays exact.
-void VesselRun::take_load() {
-  if (c_.vessel.pressure > 0) vent_next_ = coupling_->coupled().pressure() / c_.vessel.pressure;
-  body_->set_axial_profile(coupling_->coupled().profile(lattice_.rows, lattice_.row_spacing));
-}
-
-/// Tells the network of lumen and opening. From the onset of rupture the lumen counts as it was then:
-/// fragments are no wall.
-void VesselRun::exchange(long step) {
-  if (!results_.rupture_onset_s) resistance_factor_ = lumen_->resistance_factor();
-  if (results_.rupture_onset_s) open_area_ = gauge_->area();
-  coupling_->coupled().exchange({.time_s = time_at(step),
-                                 .schedule = peridynamics::schedule_share(c_.vessel, time_at(step)),
-                                 .opening = open_area_,
-                                 .resistance_factor = resistance_factor_});
-  take_load();
+/// Once.
+void VesselRun::warn_of_turbulence() {
+  if (coupling_ == nullptr || !coupling_->coupled().due(step())) return;
+  if (!results_.rupture_onset_s || turbulence_was_told_) return;
   const double reynolds = coupling_->coupled().state().highest_reynolds;
-  if (results_.rupture_onset_s && reynolds > hemodynamics::laminar_reynolds_number && !turbulence_was_said_) {
-    turbulence_was_said_ = true;
-    session_.warn(fmt::format(
-        "at {} the Reynolds number in the torn vessel has reached {:.0f}; above {:.0f} flow is not "
-        "laminar: real resistances are higher than those of Eq. (9), and less leaks",
-        quantity(time_at(step), "s"), reynolds, hemodynamics::laminar_reynolds_number));
-  }
+  if (reynolds <= hemodynamics::laminar_reynolds_number) return;
+  turbulence_was_told_ = true;
+  session_.warn(
+      fmt::format("at {} the Reynolds number in the torn vessel has reached {:.0f}; above {:.0f} flow is not "
+                  "laminar: real resistances are higher than those of Eq. (9), and less leaks",
+                  quantity(simulation_->time(), "s"), reynolds, hemodynamics::laminar_reynolds_number));
 }
 
 void VesselRun::time_loop() {
   const runtime::InterruptGuard guard;
-  for (step_ = first_step_;; ++step_) {
-    const bool due = output_due(step_) || step_ == first_step_ || signal_ != 0;
-    const bool pictures = pictures_due(step_, due);
+  peridynamics::Body& body = simulation_->body();
+  for (;;) {
+    const long now = step();
+    const bool due = output_due(now) || now == first_step_ || signal_ != 0;
+    const bool pictures = pictures_due(now, due);
     const bool saves =
-        c_.output.checkpoint_every > 0 && step_ > first_step_ && step_ % c_.output.checkpoint_every == 0;
+        c_.output.checkpoint_every > 0 && now > first_step_ && now % c_.output.checkpoint_every == 0;
     // First of all, because a launcher that was interrupted may not leave time for more.
-    if (signal_ != 0 || saves) write_checkpoint(step_);
-    if (coupling_ != nullptr && coupling_->coupled().due(step_)) {
+    if (signal_ != 0 || saves) write_checkpoint(now);
+    {
       const Stopwatch watch(session_.spent().solve);
-      exchange(step_);
+      load_->at_moment(*simulation_);
     }
+    warn_of_turbulence();
     if (due || pictures) show(due, pictures);
-    if (!due && balance_due(step_)) {
+    if (!due && balance_due(now)) {
       const Stopwatch watch(session_.spent().solve);
-      body_->observe(pressure_at(step_) * vent_now_);
-      check_balance(step_, body_->totals());
+      body.observe(simulation_->pressure());
+      check_balance(now, body.totals());
     }
-    session_.console().progress(step_, c_.steps,
-                                fmt::format("t {}  P {}", quantity(time_at(step_), "s", 3),
-                                            quantity(pressure_at(step_) * vent_now_, "Pa", 3)));
-    if (signal_ != 0 || step_ == c_.steps) {
-      // No further step tells what happened at this one.
-      const peridynamics::Totals t = body_->totals();
-      std::uint64_t flags = 0;
-      if (t.broken_bonds > 0) flags |= Flag::broken;
-      if (t.max_damage >= peridynamics::rupture_damage) flags |= Flag::ruptured;
-      take_notice(step_, flags);
+    session_.console().progress(now, c_.steps,
+                                fmt::format("t {}  P {}", quantity(simulation_->time(), "s", 3),
+                                            quantity(simulation_->pressure(), "Pa", 3)));
+    if (signal_ != 0 || now == c_.steps) {
+      record_events(simulation_->conclude(body.totals()));
       return;
     }
-
     const Stopwatch watch(session_.spent().solve);
-    vent(step_);
-    const peridynamics::StepEvents events =
-        body_->advance(pressure_at(step_) * vent_now_, pressure_at(step_ + 1) * vent_next_);
-    std::uint64_t flags = flag_of_signal(runtime::InterruptGuard::requested());
-    if (events.broken > 0) flags |= Flag::broken;
-    if (events.damaged) flags |= Flag::ruptured;
-    if (events.unstable) flags |= Flag::unstable;
-    comm_.all_reduce({&flags, 1}, parallel::Reduce::bit_or);
-    take_notice(step_, flags);
-    if (step_ + 1 < c_.steps) signal_ = signal_in(flags);  // after the last step it is done
-    vent_now_ = vent_next_;
+    const auto report = simulation_->step(*load_, flag_of_signal(runtime::InterruptGuard::requested()));
+    record_events(report);
+    if (now + 1 < c_.steps) signal_ = signal_in(report.flags);  // after the last step it is done
   }
 }
 

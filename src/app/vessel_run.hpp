@@ -10,9 +10,8 @@
 #include "output/checkpoint.hpp"
 #include "output/history.hpp"
 #include "output/point_series.hpp"
-#include "peridynamics/engine/body.hpp"
-#include "peridynamics/monitors/opening.hpp"
 #include "peridynamics/monitors/particle_source.hpp"
+#include "peridynamics/simulation/vessel_simulation.hpp"
 #include "runtime/run_session.hpp"
 
 namespace rhexis::app {
@@ -47,47 +46,39 @@ class VesselRun {
   void check_balance(long step, const peridynamics::Totals& t) const;
   bool balance_due(long step) const;
   void warn_of_crushed_bonds(long step, const peridynamics::Totals& t);
+  void warn_of_turbulence();
   void warn_of_odd_openings();
   void observe(long step, bool with_output, bool with_pictures);
   void show(bool with_output, bool with_pictures);
   bool output_due(long step) const;
   bool pictures_due(long step, bool with_output);
-  void take_notice(long step, std::uint64_t flags);
-  void vent(long step);
-  void exchange(long step);
-  void take_load();
+  void record_events(const peridynamics::VesselSimulation::Report& report);
   void write_checkpoint(long step);
   void read_checkpoint();
   void compare_with(output::CheckpointReader& file);
   template <class Visit>
-  void for_each_number(peridynamics::Body::Saved& saved, const Visit& visit);
+  void for_each_number(peridynamics::Body::Saved& saved, peridynamics::RuptureEvents& rupture,
+                       peridynamics::LoadState& load, const Visit& visit);
   void print_summary();
   runtime::Work work() const;
-  double pressure_at(long step) const;
-  double time_at(long step) const { return static_cast<double>(step) * c_.time_step; }
+  long step() const { return simulation_->step_number(); }
 
   Configuration c_;
   parallel::Communicator comm_;
   Results results_;
   runtime::RunSession session_;
-  peridynamics::Lattice lattice_;
-  std::unique_ptr<peridynamics::Body> body_;
-  std::unique_ptr<peridynamics::ParticleSource> source_;
-  std::unique_ptr<peridynamics::OpeningGauge> gauge_;
   NetworkCoupling* coupling_;
-  std::unique_ptr<peridynamics::LumenGauge> lumen_;
-  double resistance_factor_ = 1;  ///< of the lumen
+  std::unique_ptr<peridynamics::VesselSimulation> simulation_;
+  std::unique_ptr<peridynamics::LoadSource> load_;
+  std::unique_ptr<peridynamics::ParticleSource> source_;
   std::optional<output::PointSeries> series_;
   std::optional<output::History> history_;
 
   std::filesystem::path last_checkpoint_;  ///< that this run has written
   std::int64_t start_bond_evaluations_ = 0;
-  long first_step_ = 0, step_ = 0;
+  long first_step_ = 0;
   int signal_ = 0;  ///< that asks this run to end
-  bool crushing_was_said_ = false, turbulence_was_said_ = false;
-  double open_area_ = 0;                 ///< m2
-  double vent_now_ = 1, vent_next_ = 1;  ///< shares of the scheduled pressure, at t_n and t_{n+1}
-  double least_vent_ = 1;
+  bool crushing_was_told_ = false, turbulence_was_told_ = false;
 };
 
 }  // namespace rhexis::app

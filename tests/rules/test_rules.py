@@ -46,6 +46,7 @@ ROOMS = {
         "stability": {"bonds", "engine", "geometry", "laws"},
         "monitors": {"bonds", "engine", "geometry", "loads"},
         "statics": {"bonds", "engine", "geometry", "laws", "stability"},
+        "simulation": {"engine", "loads", "monitors", "statics"},
     },
 }
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The rupture of one vessel's wall in time: a body, what loads it, and what has happened to it so far.
+///
+///     VesselSimulation simulation(parameters, families, time_step, comm);   // resolved parameters
+///     LoadSource load;                                                      // or one that answers to the
+///     wall load.start(simulation); while (simulation.step_number() < steps) {
+///       load.at_moment(simulation);
+///       ...                                     // observe simulation.body() under simulation.pressure()
+///       if (simulation.step(load).unstable) ...
+///     }
+///     simulation.body().observe(simulation.pressure());
+///     simulation.conclude(simulation.body().totals());
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "parallel/communicator.hpp"
+#include "peridynamics/engine/body.hpp"
+#include "peridynamics/monitors/opening.hpp"
+#include "peridynamics/simulation/load_source.hpp"
+
+namespace rhexis::peridynamics {
+
+/// When the wall broke, and under what; nothing where it has not.
+struct RuptureEvents {
+  std::optional<double> first_break = {};  ///< s, of a bond
+  std::optional<double> onset = {};        ///< s, of a damage of `rupture_damage` somewhere
+  /// At the onset: the largest pressure in the vessel on the reference area, the blood pressure that pushes
+  /// the stretched lumen as hard (Pa), and the largest displacement (m).
+  std::optional<double> pressure = {}, blood_pressure = {}, max_displacement = {};
+};
+
+/// How the load answers to the wall.
+struct LoadState {
+  double share = 1, next_share = 1;  ///< of the scheduled pressure, at t_n and t_{n+1}
+  double least_share = 1;            ///< so far, by venting
+  double open_area = 0;              ///< m2, as last measured
+  double resistance_factor = 1;      ///< of the deformed lumen, as last measured
+};
+
+class VesselSimulation {
+ public:
+  /// At rest at time 0. `p` has been resolved. Collective.
+  VesselSimulation(const Parameters& p, SharedFamilies families, double time_step,
+                   parallel::Communicator comm);
+
+  const Parameters& parameters() const { return p_; }
+  const Lattice& lattice() const { return lattice_; }
+  std::int64_t particles() const { return particles_; }
+  Body& body() { return *body_; }
+  const Body& body() const { return *body_; }
+  const OpeningGauge& opening() const { return opening_; }
+  const LumenGauge& lumen() const { return lumen_; }
+
+  long step_number() const { return step_; }
+  double time_at(long step) const { return static_cast<double>(step) * time_step_; }
+  double time() const { return time_at(step_); }
+  /// By the schedule alone, Pa.
+  double scheduled_pressure_at(long step) const;
+  /// That acts now, Pa.
+  double pressure() const { return scheduled_pressure_at(step_) * load_.share; }
+  const RuptureEvents& rupture() const { return rupture_; }
+  LoadState& load() { return load_; }
+  const LoadState& load() const { return load_; }
+
+  /// What a step, or the end, has shown; the same on all ranks.
+  struct Report {
+    bool unstable = false, ruptures = false;  ///< at the moment before the step; rupture for the first time
+    std::uint64_t flags = 0;                  ///< the union of all ranks'
+  };
+  /// Takes one step. `flags`: what this rank has to tell the others, below 2^60. Nothing is recorded of a
+  /// step that has become unstable. Collective.
+  Report step(LoadSource& load, std::uint64_t flags = 0);
+  /// Records what the last observation, with these `totals`, shows of the present moment, of which no further
+  /// step will tell. Collective.
+  Report conclude(const Totals& totals);
+
+  /// Goes on at a step with what a checkpoint has of it; the body is restored apart.
+  void resume(long step, const RuptureEvents& rupture, const LoadState& load);
+
+ private:
+  VesselSimulation(const Parameters& p, BodySetup setup, parallel::Communicator comm);
+  Report record(bool broken, bool damaged);
+
+  Parameters p_;
+  Lattice lattice_;
+  double time_step_;  ///< s
+  parallel::Communicator comm_;
+  std::int64_t particles_ = 0;
+  std::unique_ptr<Body> body_;
+  OpeningGauge opening_;
+  LumenGauge lumen_;
+  long step_ = 0;
+  RuptureEvents rupture_;
+  LoadState load_;
+};
+
+}  // namespace rhexis::peridynamics
