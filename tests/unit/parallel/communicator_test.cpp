@@ -22,6 +22,13 @@ TEST(Communicator, ReducesAndBroadcasts) {
   EXPECT_EQ(world.all_reduce(std::int64_t{1}, Reduce::sum), world.size());
   EXPECT_EQ(world.all_reduce(static_cast<double>(world.rank()), Reduce::max), world.size() - 1);
   EXPECT_EQ(world.broadcast(world.is_root() ? "text" : ""), "text");
+  struct Pair {
+    double x;
+    std::int64_t n;
+  };
+  const Pair pair = world.broadcast(world.is_root() ? Pair{0.5, 7} : Pair{});
+  EXPECT_EQ(pair.x, 0.5);
+  EXPECT_EQ(pair.n, 7);
   EXPECT_EQ(world.node_count(), 1);
 }
 
