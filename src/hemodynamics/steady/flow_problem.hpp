@@ -17,9 +17,9 @@
 namespace rhexis::hemodynamics {
 
 struct FlowProblem {
-  network::Parameters network;
+  network::Parameters network = {};
   network::TreeRules tree = {};  ///< where network.source = "tree"
-  Parameters blood;
+  Parameters blood = {};
   ToSi to_si = {};                           ///< reads the units of a network's files
   std::vector<VesselFailure> failures = {};  ///< of a graph's vessels that have ruptured before
   bool is_tree() const { return network.source == "tree"; }

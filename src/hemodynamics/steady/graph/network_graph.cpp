@@ -126,8 +126,13 @@ std::vector<double> conductances(const Graph& graph, const Viscosity& viscosity,
 
 std::uint32_t find_vessel(const FlowProblem& problem, const Graph& graph, const std::string& name,
                           const std::string& key) {
-  if (problem.network.source == "tree")
-    return static_cast<std::uint32_t>(TreePair::id_of(name, problem.tree.generations));
+  if (problem.is_tree()) {
+    try {
+      return static_cast<std::uint32_t>(TreePair::id_of(name, problem.tree.generations));
+    } catch (const InputError& error) {
+      throw InputError(error.what(), key);
+    }
+  }
   if (!graph.vessel_name.empty()) {
     const auto found = std::find(graph.vessel_name.begin(), graph.vessel_name.end(), name);
     if (found != graph.vessel_name.end())

@@ -14,8 +14,12 @@ const parallel::Communicator world = parallel::Communicator::world();
 const Progress silent = [](const std::string&) {};
 
 FlowProblem problem(const std::string& tier) {
-  FlowProblem p{.network = {.source = "tree", .tier = tier, .query = {"artery.010"}},
-                .tree = test::random_rules(9)};
+  FlowProblem p;
+  p.network.tier = tier;
+  p.network.query = {"artery.010"};
+  p.tree = test::random_rules(9);
+  p.tree.artery_wall = network::artery_wall(p.network.wall);
+  p.tree.vein_wall = network::vein_wall(p.network.wall);
   p.blood.viscosity = test::in_vivo();
   p.blood.inlet_pressure = 12600;
   p.blood.outlet_pressure = 600;
@@ -47,7 +51,7 @@ TEST_P(Tier, FindsTheFlowOfTheImplicitTree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tiers, Tier, testing::Values("explicit", "distributed"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tier) { return std::string(tier.param); });
 
 TEST(FlowSolver, FindsVesselsByNameAndNamesTheKeyOfAnUnknownOne) {
   for (const char* tier : {"implicit", "explicit"}) {
