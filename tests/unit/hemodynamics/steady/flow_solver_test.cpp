@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One network by each of the solvers: they must tell the same of it.
 #include "hemodynamics/steady/flow_solver.hpp"
 
