@@ -48,7 +48,9 @@ Parameters parameters(const Case& c) {
   p.critical_stretch = 0.1;
   p.scatter.critical_stretch = c.scatter;
   p.scatter.stiffness = c.scatter;
-  if (c.scatter > 0) p.spots = {{2e-3}, {0.5}, {1e-3}, {0.9}, {1}, {0.5}};
+  if (c.scatter > 0)
+    p.spots.list = {
+        {.position = 2e-3, .angle = 0.5, .radius = 1e-3, .critical_stretch = 0.9, .thickness = 0.5}};
   p.law.name = c.law;
   if (p.law.name == "fung") p.law.numbers["fung_exponent"] = 10;
   if (p.law.name == "lps") p.law.poisson_ratio = 0.4;
