@@ -34,7 +34,8 @@ bool of_its_load(const std::string& key) {
 }
 
 /// What a network may say of a body, as a record of input has it.
-Json measures(const peridynamics::Parameters& v) {
+Json measures(const Configuration& c) {
+  const peridynamics::Parameters& v = c.wall ? c.wall->parameters : c.vessel;
   const auto entry = [](double value, const std::string& written) {
     return Json{{"written", written}, {"value", value}};
   };
@@ -57,14 +58,14 @@ Json read_json(output::CheckpointReader& file, const std::string& name) {
 
 void write_input(output::CheckpointWriter& file, const Configuration& c) {
   file.write("input", c.record.dump());
-  file.write("measures", measures(c.vessel).dump());
+  file.write("measures", measures(c).dump());
 }
 
 void compare_input(output::CheckpointReader& file, Configuration& c, const std::string& since) {
   const Json input = read_json(file, "input");
   auto of_body = input::differences(input, c.record, of_the_body);
   if (of_body.empty() && file.holds(step_name))
-    of_body = input::differences(read_json(file, "measures"), measures(c.vessel), of_the_body);
+    of_body = input::differences(read_json(file, "measures"), measures(c), of_the_body);
   if (!of_body.empty()) file.refuse("the checkpoint is of another body: " + of_body.front().text);
   for (const input::Difference& d : input::differences(input, c.record, of_its_load))
     c.warnings.push_back(fmt::format("{}, from {} on", d.text, since));

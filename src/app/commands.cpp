@@ -155,7 +155,8 @@ int carry_out(const Command& command, parallel::Communicator comm) {
   }
   for (const std::string& text : unfinished_runs(options, comm)) configuration.warnings.push_back(text);
   const auto run = [&] {
-    if (configuration.model == "network") return NetworkRun(std::move(configuration), options, comm).run();
+    if (configuration.model == Model::network)
+      return NetworkRun(std::move(configuration), options, comm).run();
     if (configuration.is_ensemble()) return EnsembleRun(std::move(configuration), options, comm).run();
     if (configuration.is_coupled()) return run_coupled(std::move(configuration), options, comm);
     return VesselRun(std::move(configuration), options, comm).run();

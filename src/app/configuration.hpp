@@ -15,19 +15,27 @@
 #include "network/parameters.hpp"
 #include "output/parameters.hpp"
 #include "parallel/communicator.hpp"
-#include "peridynamics/bonds/bond_family.hpp"
-#include "peridynamics/engine/memory.hpp"
 #include "peridynamics/parameters.hpp"
+#include "peridynamics/wall_model.hpp"
 #include "studies/ensemble/parameters.hpp"
 #include "studies/screening/parameters.hpp"
 
 namespace rhexis::app {
 
+/// What a scene simulates.
+enum class Model { vessel, network, coupled, ensemble };
+
+constexpr auto name_table(Model) {
+  using enum Model;
+  return std::to_array<Named<Model>>(
+      {{vessel, "vessel"}, {network, "network"}, {coupled, "coupled"}, {ensemble, "ensemble"}});
+}
+
 struct Configuration {
   std::string file;
   std::string title;
-  std::string model = "vessel";  ///< "vessel" | "network" | "coupled" | "ensemble"
-  peridynamics::Parameters vessel;
+  Model model = Model::vessel;
+  peridynamics::Parameters vessel;  ///< as read
   network::Parameters network;
   hemodynamics::Parameters hemodynamics;
   screening::Parameters screening;
@@ -38,19 +46,15 @@ struct Configuration {
 
   network::TreeRules tree;  ///< where network.source = "tree"
 
-  bool is_coupled() const { return model == "coupled"; }
-  bool is_ensemble() const { return model == "ensemble"; }
+  bool is_coupled() const { return model == Model::coupled; }
+  bool is_ensemble() const { return model == Model::ensemble; }
 
-  /// What a wall is made of and takes, before it is made; families as made once for all uses of the wall.
-  peridynamics::WallSize wall_size;
-  peridynamics::WallMemory wall_memory;  ///< of all ranks together; of an ensemble, on each rank
-  peridynamics::SharedFamilies families;
+  /// What `vessel` is resolved to, an ensemble's mean wall; none of a network, or before a coupled vessel is
+  /// known.
+  peridynamics::SharedWall wall;
 
   double input_bytes = 0;  ///< memory that reading the input file takes
 
-  double stable_time_step = 0;  ///< s
-  double time_step = 0;         ///< s
-  long steps = 0;
   std::vector<long> output_steps;
   std::string table_checksum;  ///< of load.table_file; empty: none was read
   std::vector<std::string> warnings;
@@ -67,18 +71,18 @@ struct Configuration {
 /// Every key there is, bound to `c`.
 ParameterList declare(Configuration& c);
 
-/// Settles what follows from a vessel's values. Where the scene is coupled, its geometry comes from the
-/// network, so this has to wait for that. Throws InputError, complete with place. Collective.
-void resolve_wall(Configuration& c, parallel::Communicator comm);
+/// Makes the wall of a coupled vessel, once the network has given its geometry and its load. Throws
+/// InputError, complete with place. Collective.
+void resolve_coupled_wall(Configuration& c, parallel::Communicator comm);
 
 /// The risk (studies/screening/screening.hpp) of a wall without spots or scatter under its schedule's highest
 /// pressure; none of a wall that stiffens.
 std::optional<double> risk_of_load(const peridynamics::Parameters& vessel);
 
-/// Reads and validates `file` with `overrides` into `c`, where `say` and `checks` may be set, and settles
-/// what follows from them: time step and plan of output, or the rules of a tree. Only the sections of the
-/// scene's model are read; any other is an error. Collective: one rank reads, all get the same configuration
-/// or the same InputError.
+/// Reads and validates `file` with `overrides` into `c`, where `say` and `checks` may be set, and
+/// resolves what follows from them: the wall and the plan of output, or the rules of a tree. Only the
+/// sections of the scene's model are read; any other is an error. Collective: one rank reads, all get the
+/// same configuration or the same InputError.
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
                                  parallel::Communicator comm, Configuration c = {});
 

@@ -178,7 +178,7 @@ class CascadeRun {
     state_.simulated.push_back(static_cast<std::uint32_t>(vessel.vessel));
     if (r.rupture_onset_s) {
       state_.failures.push_back({static_cast<std::uint32_t>(vessel.vessel),
-                                 c_.coupling.outcome == "occlusion",
+                                 c_.coupling.outcome == coupling::Outcome::occlusion,
                                  network_->coupled().orifice(event.opening)});
     }
     state_.elapsed += r.simulated_s.value_or(0);

@@ -128,17 +128,17 @@ void EnsembleRun::open_results() {
 }
 
 void EnsembleRun::print_header() {
-  const peridynamics::Parameters& v = c_.vessel;
+  const peridynamics::Parameters& v = c_.wall->parameters;
   const ensemble::Parameters& e = c_.ensemble;
   session_.print_title();
   session_.warn(c_.warnings);
   session_.console().item("vessel",
                           fmt::format("lumen radius {}, outer radius {}, length {}; ends {}; spacing {}",
                                       quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
-                                      quantity(v.length, "m"), v.ends, quantity(*v.spacing, "m")));
+                                      quantity(v.length, "m"), name_of(v.ends), quantity(*v.spacing, "m")));
   session_.console().item("pressures", fmt::format("{} from {} to {} ({}), up to {}", e.pressures.size(),
                                                    mmhg(e.pressures.front()), mmhg(e.pressures.back()),
-                                                   v.schedule, quantity(v.end_time, "s")));
+                                                   name_of(v.schedule), quantity(v.end_time, "s")));
   session_.console().item(
       "walls",
       fmt::format("{} (seed {}); spreads: strength {}, thickness {}, stiffness {}", e.samples, e.seed,
@@ -191,7 +191,7 @@ int EnsembleRun::run_round(std::size_t first, std::size_t count) {
         const std::size_t i = turn * ranks + (turn % 2 == 0 ? rank : ranks - 1 - rank);
         if (i >= count) continue;
         const auto& [wall, pressure] = tasks_[first + i];
-        const auto sample = ensemble::simulate(c_.ensemble, c_.vessel, pressure, wall,
+        const auto sample = ensemble::simulate(c_.ensemble, *c_.wall, pressure, wall,
                                                runtime::InterruptGuard::requested, bond_evaluations_);
         if (!sample) break;
         own.push_back(*sample);

@@ -17,8 +17,7 @@ void append(Names& names, const Names& more, const std::string& folder = "") {
 /// Those of network_files.hpp.
 Names network_names(const Configuration& c) {
   Names names = output::series_files("network", output::formats_of(c.output));
-  const bool implicit =
-      c.network.source == "tree" && c.network.tier != "explicit" && c.network.tier != "distributed";
+  const bool implicit = c.network.resolved_tier() == network::Tier::implicit_tree;
   if (implicit && c.network.statistics) append(names, {"generations.csv", "histograms.csv"});
   if (!implicit) names.emplace_back("vessels.csv");
   if (c.screening.top > 0) append(names, {"screening.csv", "risk_histograms.csv"});
@@ -31,7 +30,7 @@ Names vessel_names(const Configuration& c) {
   Names names{"history.csv", "run.json"};
   if (!c.is_coupled()) return names;
   append(names, network_names(c));
-  if (c.coupling.mode == "two_way") names.emplace_back("coupling.csv");
+  if (c.coupling.two_way()) names.emplace_back("coupling.csv");
   return names;
 }
 
@@ -46,7 +45,7 @@ Names cascade_names(const Configuration& c) {
 }
 
 output::FutureFiles files_of(const Configuration& c, bool restarts) {
-  if (c.model == "network") {
+  if (c.model == Model::network) {
     Names names{"run.json"};
     append(names, network_names(c));
     return {names};
@@ -73,7 +72,7 @@ output::FolderPlan folder_plan(const Configuration& c, const runtime::RunOptions
   }
   plan.writes = files_of(c, restarts);
   if (c.output.movie && c.insitu.enabled && !c.insitu.scripts.empty() && !c.is_ensemble() &&
-      c.model != "network")
+      c.model != Model::network)
     plan.writes.names.emplace_back("movie.mp4");
   return plan;
 }
@@ -105,7 +104,7 @@ output::FutureFiles files_of_steps(const Configuration& c, long first_step, bool
   if (!c.output.fields.empty()) {
     files.names = output::series_files(series_name(first_step, restarts), output::formats_of(c.output));
   }
-  files.may_be_written = [first_step, last_step = c.steps](const std::string& name) {
+  files.may_be_written = [first_step, last_step = c.wall ? c.wall->time.count : 0](const std::string& name) {
     constexpr std::string_view before = "checkpoints/step_";
     if (!name.starts_with(before)) return false;
     const long step = std::atol(name.c_str() + before.size());

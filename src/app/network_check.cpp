@@ -45,7 +45,7 @@ void check_network(const Configuration& c, parallel::Communicator comm) {
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);
   console.item("network", solver->description());
-  if (c.network.source != "tree") return;
+  if (!c.network.is_tree()) return;
   const network::TreePair tree(c.tree);
   const auto vessels = static_cast<double>(tree.vessels());
   const network::TreeVessel last = tree.vessel(tree.vessels() - 2);
@@ -56,7 +56,7 @@ void check_network(const Configuration& c, parallel::Communicator comm) {
   console.item("last", fmt::format("artery of radius {}, length {}, wall {}", quantity(last.radius, "m"),
                                    quantity(last.length, "m"), quantity(last.wall_thickness, "m")));
   console.item("from heart", fmt::format("{} to the midplane", quantity(-tree.inlet()[0], "m")));
-  const bool implicit = c.network.tier == "auto" || c.network.tier == "implicit";
+  const bool implicit = c.network.resolved_tier() == network::Tier::implicit_tree;
   if (!implicit) {
     console.item("memory", fmt::format("about {:.3g} MB", vessels * hemodynamics::bytes_per_vessel / 1e6));
     return;

@@ -79,8 +79,8 @@ Configuration NetworkCoupling::with_wall() {
                      network_.solution.display, chosen_, comm_, c.warnings);
     coupled_->extract_wall(c.vessel);
   });
-  resolve_wall(c, comm_);
-  with_place(c_, [&] { coupled_->set_windows(c.vessel, c.time_step, c.warnings); });
+  resolve_coupled_wall(c, comm_);
+  with_place(c_, [&] { coupled_->set_windows(c.wall->parameters, c.wall->time.step, c.warnings); });
   return c;
 }
 

@@ -28,11 +28,12 @@ void NetworkRun::print_header() {
   session_.warn(c_.warnings);
   session_.console().item("network", solver_->description());
   session_.console().item(
-      "blood", h.viscosity_law == "constant"
-                   ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
-                   : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", h.viscosity_law,
-                                 quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
-                                 h.phase_separation ? ", dividing at bifurcations" : ""));
+      "blood",
+      h.viscosity.law == hemodynamics::ViscosityLaw::constant
+          ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
+          : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", name_of(h.viscosity.law),
+                        quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
+                        h.phase_separation ? ", dividing at bifurcations" : ""));
   session_.print_surroundings();
 }
 

@@ -17,8 +17,8 @@ std::vector<std::string> names_of(std::span<const FieldInfo> fields) {
 
 runtime::PicturesPlan pictures_plan(const Configuration& c) {
   runtime::PicturesPlan plan{.insitu = c.insitu, .obstacle = c.no_pictures};
-  if (c.model != "network") plan.particle_fields = names_of(peridynamics::ParticleSource::all_fields());
-  if (c.model != "vessel") plan.network_fields = names_of(hemodynamics::VesselLines().fields());
+  if (c.model != Model::network) plan.particle_fields = names_of(peridynamics::ParticleSource::all_fields());
+  if (c.model != Model::vessel) plan.network_fields = names_of(hemodynamics::VesselLines().fields());
   return plan;
 }
 

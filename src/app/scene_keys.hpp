@@ -12,7 +12,4 @@ namespace rhexis::app {
 /// The keys of the scene's model, as the document gives it. Throws InputError for a key of another model's.
 ParameterList declare_model(Configuration& c, const input::Document& document);
 
-/// Keys of a vessel that its network takes over where they are coupled.
-bool network_knows(const std::string& key);
-
 }  // namespace rhexis::app

@@ -77,7 +77,7 @@ void VesselRun::write_checkpoint(long step) {
   output::CheckpointWriter file(path, runtime::version(), comm_);
   write_input(file, c_);
   file.write(step_name, std::int64_t{step});
-  file.write("time_step", c_.time_step);
+  file.write("time_step", c_.wall->time.step);
   file.write("scheduled_pressure", simulation_->scheduled_pressure_at(step));
   for_each_number(saved, rupture, load,
                   [&](const std::string& name, const auto& value, auto...) { file.write(name, value); });
@@ -98,10 +98,10 @@ void VesselRun::compare_with(output::CheckpointReader& file) {
   compare_input(file, c_, fmt::format("step {}", first_step_));
   double time_step = 0, pressure = 0;
   file.read("time_step", time_step);
-  if (time_step != c_.time_step) {
+  if (time_step != c_.wall->time.step) {
     file.refuse(
         fmt::format("the checkpoint was made with a time step of {} s, this run has {} s; set time.step",
-                    time_step, c_.time_step));
+                    time_step, c_.wall->time.step));
   }
   file.read("scheduled_pressure", pressure);
   if (pressure != simulation_->scheduled_pressure_at(first_step_)) {
@@ -121,9 +121,9 @@ void VesselRun::read_checkpoint() {
   file.read(step_name, step, 0);
   first_step_ = step;
   // From the last step a run goes on that was killed before it had stored and drawn that step.
-  if (first_step_ > c_.steps) {
+  if (first_step_ > c_.wall->time.count) {
     file.refuse(fmt::format("the checkpoint is of step {}, this run ends at step {}; raise time.end",
-                            first_step_, c_.steps));
+                            first_step_, c_.wall->time.count));
   }
   if (coupling_ != nullptr)
     coupling_->restore(file, simulation_->time_at(first_step_), session_.options().directory);

@@ -18,7 +18,7 @@ void print_risk(runtime::Console& console, const peridynamics::Parameters& v) {
 }
 
 void VesselRun::print_header() {
-  const peridynamics::Parameters& v = c_.vessel;
+  const peridynamics::Parameters& v = c_.wall->parameters;
   // A coupled run has said its title before the network was solved.
   if (coupling_ == nullptr) session_.print_title();
   session_.warn(c_.warnings);
@@ -29,19 +29,19 @@ void VesselRun::print_header() {
   }
   session_.console().item("vessel", fmt::format("lumen radius {}, outer radius {}, length {}; ends {}",
                                                 quantity(v.inner_radius, "m"), quantity(v.outer_radius, "m"),
-                                                quantity(v.length, "m"), v.ends));
+                                                quantity(v.length, "m"), name_of(v.ends)));
   session_.console().item(
       "particles",
       fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}", grouped(*results_.particles),
-                  simulation_->lattice().section.size(), simulation_->lattice().rows, v.cross_section,
-                  quantity(simulation_->lattice().spacing, "m"),
+                  simulation_->lattice().section.size(), simulation_->lattice().rows,
+                  name_of(v.cross_section), quantity(simulation_->lattice().spacing, "m"),
                   quantity(simulation_->lattice().horizon, "m")));
   const peridynamics::Scatter& scatter = v.scatter;
   if (!scatter.none()) {
-    session_.console().item("scatter",
-                            fmt::format("critical stretch {:g} %, stiffness {:g} % ({}) over {}, seed {}",
-                                        100 * scatter.critical_stretch, 100 * scatter.stiffness, scatter.law,
-                                        quantity(*scatter.correlation_length, "m"), scatter.seed));
+    session_.console().item(
+        "scatter", fmt::format("critical stretch {:g} %, stiffness {:g} % ({}) over {}, seed {}",
+                               100 * scatter.critical_stretch, 100 * scatter.stiffness, name_of(scatter.law),
+                               quantity(*scatter.correlation_length, "m"), scatter.seed));
   }
   if (!v.spots.list.empty()) {
     session_.console().item("spots",
@@ -50,17 +50,18 @@ void VesselRun::print_header() {
   }
   session_.console().item("bonds",
                           fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
-                                      *results_.family_max, v.bond_precision));
+                                      *results_.family_max, name_of(v.bond_precision)));
   session_.console().item("strength", peridynamics::describe_strength(v));
-  session_.console().item("time",
-                          fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.steps - first_step_,
-                                      quantity(c_.time_step, "s"), 100 * c_.time_step / c_.stable_time_step,
-                                      quantity(c_.stable_time_step, "s")));
-  session_.console().item("load", fmt::format("{} ({}) on the undeformed lumen, layer {}, venting {}",
-                                              quantity(peridynamics::highest_pressure(v), "Pa"),
-                                              peridynamics::describe_schedule(v), v.layer, v.venting));
+  session_.console().item(
+      "time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.wall->time.count - first_step_,
+                          quantity(c_.wall->time.step, "s"), 100 * c_.wall->time.step / c_.wall->time.stable,
+                          quantity(c_.wall->time.stable, "s")));
+  session_.console().item(
+      "load", fmt::format("{} ({}) on the undeformed lumen, layer {}, venting {}",
+                          quantity(peridynamics::highest_pressure(v), "Pa"),
+                          peridynamics::describe_schedule(v), name_of(v.layer), name_of(v.venting)));
   if (coupling_ != nullptr) {
-    coupling_->print_header(session_.console(), c_.time_step);
+    coupling_->print_header(session_.console(), c_.wall->time.step);
   } else {
     print_risk(session_.console(), v);
   }

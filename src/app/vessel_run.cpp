@@ -62,7 +62,8 @@ runtime::Ending VesselRun::run() {
     session_.start_pictures();
     open_results();
     print_header();
-    if (c_.vessel.equilibrium_pressure > 0 && session_.options().restart.empty()) start_at_equilibrium();
+    if (c_.wall->parameters.equilibrium_pressure > 0 && session_.options().restart.empty())
+      start_at_equilibrium();
     time_loop();
     warn_of_odd_openings();
     if (series_) series_->finish();
@@ -79,18 +80,18 @@ runtime::Ending VesselRun::run() {
 }
 
 void VesselRun::build() {
-  simulation_ = std::make_unique<peridynamics::VesselSimulation>(c_.vessel, c_.families, c_.time_step, comm_);
-  const bool periodic = peridynamics::end_condition(c_.vessel) == peridynamics::EndCondition::axial_periodic;
-  results_.family_max = peridynamics::largest_family(simulation_->lattice(), *c_.families, periodic);
-  results_.time_step_s = c_.time_step;
-  results_.stable_time_step_s = c_.stable_time_step;
+  simulation_ = std::make_unique<peridynamics::VesselSimulation>(*c_.wall, comm_);
+  results_.family_max =
+      peridynamics::largest_family(c_.wall->lattice(), c_.wall->families(), c_.wall->is_periodic());
+  results_.time_step_s = c_.wall->time.step;
+  results_.stable_time_step_s = c_.wall->time.stable;
   results_.particles = simulation_->particles();
   results_.bonds = simulation_->body().bonds();
   source_ = std::make_unique<peridynamics::ParticleSource>(simulation_->body());
   if (coupling_ != nullptr && coupling_->coupled().two_way()) {
     load_ = std::make_unique<coupling::NetworkLoad>(coupling_->coupled());
-  } else if (c_.vessel.venting != "none") {
-    load_ = std::make_unique<peridynamics::VentedLoad>(*c_.vessel.supply_area);
+  } else if (c_.wall->parameters.venting != peridynamics::Venting::none) {
+    load_ = std::make_unique<peridynamics::VentedLoad>(*c_.wall->parameters.supply_area);
   } else {
     load_ = std::make_unique<peridynamics::LoadSource>();
   }
@@ -118,7 +119,7 @@ void VesselRun::open_results() {
   plan.basename = series_name(first_step_, restarts);
   plan.title = c_.title;
   plan.version = runtime::version();
-  plan.precision = output::precision_of(c_.output);
+  plan.precision = c_.output.precision;
   plan.formats = output::formats_of(c_.output);
   for (const std::string& name : output::series_files(plan.basename, plan.formats))
     session_.folder().claim(name);
@@ -149,7 +150,7 @@ bool VesselRun::output_due(long step) const {
 bool VesselRun::pictures_due(long step, bool with_output) {
   if (!session_.pictures()->pipeline) return false;
   const bool due =
-      c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.steps : with_output;
+      c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.wall->time.count : with_output;
   // Scripts are asked last: the answer may need all ranks.
   return due && session_.pictures()->pipeline->wants(
                     step + session_.pictures()->steps_before,
@@ -158,13 +159,12 @@ bool VesselRun::pictures_due(long step, bool with_output) {
 
 void VesselRun::start_at_equilibrium() {
   const Stopwatch watch(session_.spent().solve);
-  const peridynamics::Equilibrium found =
-      peridynamics::start_at_equilibrium(*simulation_, c_.families, c_.time_step, comm_);
+  const peridynamics::Equilibrium found = peridynamics::start_at_equilibrium(*simulation_, *c_.wall, comm_);
   start_bond_evaluations_ = found.bond_evaluations;
   session_.console().item(
       "start", fmt::format("equilibrium under {}: {} steps of relaxation, residual {:.1e}, strain energy {}",
-                           quantity(c_.vessel.equilibrium_pressure, "Pa"), found.steps, found.residual,
-                           quantity(found.strain_energy, "J")));
+                           quantity(c_.wall->parameters.equilibrium_pressure, "Pa"), found.steps,
+                           found.residual, quantity(found.strain_energy, "J")));
 }
 
 void VesselRun::observe(long step, bool with_output, bool with_pictures) {
@@ -189,8 +189,8 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
     open_area = t.max_damage >= peridynamics::rupture_damage ? simulation_->opening().area() : 0;
     const double leak = coupling_ != nullptr && coupling_->coupled().two_way()
                             ? coupling_->coupled().state().leak
-                            : peridynamics::orifice_flow(c_.vessel.discharge_coefficient, open_area, pressure,
-                                                         c_.vessel.blood_density);
+                            : peridynamics::orifice_flow(c_.wall->parameters.discharge_coefficient, open_area,
+                                                         pressure, c_.wall->parameters.blood_density);
     if (coupling_ != nullptr) results_.coupling = coupling_->results();
     results_.steps = step;
     results_.simulated_s = time;
@@ -245,7 +245,7 @@ void VesselRun::show(bool with_output, bool with_pictures) {
 /// The opening is measured between particles, wherever they have gone.
 void VesselRun::warn_of_odd_openings() {
   if (!results_.rupture_onset_s) return;
-  const peridynamics::Parameters& v = c_.vessel;
+  const peridynamics::Parameters& v = c_.wall->parameters;
   const double wall = 2 * std::numbers::pi * v.inner_radius * v.length;
   const double open_area = simulation_->load().open_area;
   if (open_area > wall) {
@@ -254,7 +254,7 @@ void VesselRun::warn_of_odd_openings() {
                     "wall, {:.3g} mm2: fragments have flown apart, and it is no hole in a wall any more",
                     1e6 * open_area, 1e6 * wall));
   }
-  if (v.venting == "orifice" && simulation_->load().least_share == 1 &&
+  if (v.venting == peridynamics::Venting::orifice && simulation_->load().least_share == 1 &&
       *results_.rupture_length_m > 0.9 * v.length) {
     session_.warn(
         "the wall is ruptured over its length, but no row of it ever showed a gap, so the load was not "
@@ -266,8 +266,8 @@ std::string VesselRun::unstable_message(long step, const std::string& sign) cons
   return fmt::format(
       "the run became unstable by step {} ({}): {}; use a smaller time.step (now {}; {} is stable "
       "while strains are small)",
-      step, quantity(simulation_->time_at(step), "s"), sign, quantity(c_.time_step, "s"),
-      quantity(c_.stable_time_step, "s"));
+      step, quantity(simulation_->time_at(step), "s"), sign, quantity(c_.wall->time.step, "s"),
+      quantity(c_.wall->time.stable, "s"));
 }
 
 void VesselRun::check_balance(long step, const peridynamics::Totals& t) const {
@@ -281,7 +281,7 @@ void VesselRun::check_balance(long step, const peridynamics::Totals& t) const {
 /// until the next output.
 bool VesselRun::balance_due(long step) const {
   if (!results_.first_bond_break_s) return false;
-  const long since = step - std::lround(*results_.first_bond_break_s / c_.time_step);
+  const long since = step - std::lround(*results_.first_bond_break_s / c_.wall->time.step);
   return since > 0 && std::has_single_bit(static_cast<unsigned long>(since));
 }
 
@@ -289,11 +289,12 @@ bool VesselRun::balance_due(long step) const {
 void VesselRun::warn_of_crushed_bonds(long step, const peridynamics::Totals& t) {
   if (t.crushed_bonds == 0 || crushing_was_told_) return;
   crushing_was_told_ = true;
-  session_.warn(fmt::format(
-      "at {} {} bonds are compressed to less than half their length, where {} is no longer known "
-      "to be stable: the run will stop if energy exceeds the work done by a tenth; a smaller "
-      "time.step is safer",
-      quantity(simulation_->time_at(step), "s"), grouped(t.crushed_bonds), quantity(c_.time_step, "s")));
+  session_.warn(
+      fmt::format("at {} {} bonds are compressed to less than half their length, where {} is no longer known "
+                  "to be stable: the run will stop if energy exceeds the work done by a tenth; a smaller "
+                  "time.step is safer",
+                  quantity(simulation_->time_at(step), "s"), grouped(t.crushed_bonds),
+                  quantity(c_.wall->time.step, "s")));
 }
 
 /// Tells of what a step, or the end, has shown.
@@ -349,17 +350,17 @@ void VesselRun::time_loop() {
       body.observe(simulation_->pressure());
       check_balance(now, body.totals());
     }
-    session_.console().progress(now, c_.steps,
+    session_.console().progress(now, c_.wall->time.count,
                                 fmt::format("t {}  P {}", quantity(simulation_->time(), "s", 3),
                                             quantity(simulation_->pressure(), "Pa", 3)));
-    if (signal_ != 0 || now == c_.steps) {
+    if (signal_ != 0 || now == c_.wall->time.count) {
       record_events(simulation_->conclude(body.totals()));
       return;
     }
     const Stopwatch watch(session_.spent().solve);
     const auto report = simulation_->step(*load_, flag_of_signal(runtime::InterruptGuard::requested()));
     record_events(report);
-    if (now + 1 < c_.steps) signal_ = signal_in(report.flags);  // after the last step it is done
+    if (now + 1 < c_.wall->time.count) signal_ = signal_in(report.flags);  // after the last step it is done
   }
 }
 

@@ -10,6 +10,7 @@
 #include "core/memory.hpp"
 #include "parallel/node.hpp"
 #include "parallel/together.hpp"
+#include "peridynamics/engine/memory.hpp"
 #include "runtime/version.hpp"
 
 namespace rhexis::app {
@@ -22,7 +23,7 @@ WallUse use_of(const Configuration& c, int ranks) {
   return {.ranks = c.is_ensemble() ? 1 : ranks,
           .threads = parallel::thread_count(),
           .outputs = !c.is_ensemble() && (!c.output.fields.empty() || c.insitu.enabled),
-          .doubles = c.output.precision == "double",
+          .doubles = c.output.precision == Precision::double_precision,
           .checkpoints = c.output.checkpoint_every > 0};
 }
 
@@ -57,8 +58,7 @@ std::optional<double> largest_that_fits(const std::function<bool(double factor)>
 
 /// The key whose value makes the wall so large, by the look of the vessel; walls are some tenths of a lumen
 /// thick, and vessels up to some hundred times as long as wide.
-std::string key_at_fault(const Configuration& c) {
-  const peridynamics::Parameters& p = c.vessel;
+std::string key_at_fault(const Configuration& c, const peridynamics::Parameters& p) {
   if (!c.is_coupled()) {
     if (p.outer_radius > 5 * p.inner_radius) return "vessel.outer_radius";
     if (p.length > 1000 * p.outer_radius) return "vessel.length";
@@ -67,10 +67,11 @@ std::string key_at_fault(const Configuration& c) {
 }
 
 /// `; discretisation.spacing = "30 um" would fit, ...`: what to change, each alone.
-std::string advice(const Configuration& c, const std::function<bool(const peridynamics::Parameters&)>& fits) {
+std::string advice(const Configuration& c, const peridynamics::Parameters& resolved,
+                   const std::function<bool(const peridynamics::Parameters&)>& fits) {
   const auto with = [&](const auto& change) {
     return largest_that_fits([&](double factor) {
-      peridynamics::Parameters p = c.vessel;
+      peridynamics::Parameters p = resolved;
       change(p, factor);
       const double across = (p.outer_radius - p.inner_radius) / *p.spacing;
       return across >= 1 && p.length > 2 * *p.horizon && fits(p);
@@ -85,15 +86,15 @@ std::string advice(const Configuration& c, const std::function<bool(const peridy
         *p.spacing /= factor;
         *p.horizon /= factor;
       }))
-    add("discretisation.spacing", *c.vessel.spacing / *coarser);
+    add("discretisation.spacing", *resolved.spacing / *coarser);
   if (c.is_coupled()) return text;
   if (const auto shorter = with([](peridynamics::Parameters& p, double factor) { p.length *= factor; }))
-    add("vessel.length", c.vessel.length * *shorter);
+    add("vessel.length", resolved.length * *shorter);
   if (const auto thinner = with([](peridynamics::Parameters& p, double factor) {
         p.outer_radius = p.inner_radius + factor * (p.outer_radius - p.inner_radius);
       }))
     add("vessel.outer_radius",
-        c.vessel.inner_radius + *thinner * (c.vessel.outer_radius - c.vessel.inner_radius));
+        resolved.inner_radius + *thinner * (resolved.outer_radius - resolved.inner_radius));
   return text;
 }
 
@@ -104,18 +105,18 @@ std::string megabytes(double bytes) {
 
 }  // namespace
 
-void settle_memory(Configuration& c, parallel::Communicator comm) {
+void check_memory(const Configuration& c, const peridynamics::Parameters& resolved,
+                  parallel::Communicator comm) {
   const int ranks = comm.size(), here = parallel::ranks_of_node(comm);
-  c.wall_size = peridynamics::wall_size(c.vessel);
-  c.wall_memory = memory_of(c, c.vessel, ranks);
-  const peridynamics::WallSize& size = c.wall_size;
+  const peridynamics::WallSize size = peridynamics::wall_size(resolved);
+  const WallMemory memory = memory_of(c, resolved, ranks);
   if (c.say && c.checks) {
     const bool reads_scripts =
         c.insitu.enabled && !c.insitu.scripts.empty() && !runtime::paraview_version().empty();
     c.say("memory",
-          fmt::format("about {} for the wall, {}; this check takes up to {}{}", megabytes(c.wall_memory.run),
+          fmt::format("about {} for the wall, {}; this check takes up to {}{}", megabytes(memory.run),
                       c.is_ensemble() ? "on each rank" : "all ranks together",
-                      megabytes(std::max(c.wall_memory.check, c.input_bytes)),
+                      megabytes(std::max(memory.check, c.input_bytes)),
                       reads_scripts ? fmt::format(", and {} for ParaView to read the scripts",
                                                   megabytes(paraview_bytes))
                                     : ""));
@@ -125,7 +126,7 @@ void settle_memory(Configuration& c, parallel::Communicator comm) {
   const double share = c.is_ensemble() ? (limit.of_machine ? here : 1)
                                        : static_cast<double>(limit.of_machine ? here : 1) / ranks;
   parallel::together<InputError>(comm, [&] {
-    const double bytes = share * needed(c, c.wall_memory);
+    const double bytes = share * needed(c, memory);
     if (bytes <= limit.bytes) return;
     throw InputError(
         fmt::format(
@@ -136,11 +137,11 @@ void settle_memory(Configuration& c, parallel::Communicator comm) {
             : limit.of_machine ? fmt::format(" for the {} ranks of a machine", here)
                                : " on a rank",
             megabytes(limit.bytes), limit.source,
-            advice(c,
+            advice(c, resolved,
                    [&](const peridynamics::Parameters& p) {
                      return share * needed(c, memory_of(c, p, ranks)) <= limit.bytes;
                    })),
-        key_at_fault(c));
+        key_at_fault(c, resolved));
   });
   constexpr double bonds_a_second = 1e6;  // or more: of making families and their weights
   if (c.say && size.bonds > 5 * bonds_a_second)

@@ -6,9 +6,10 @@
 
 namespace rhexis::app {
 
-/// Finds c.wall_size and c.wall_memory of resolved parameters, and has `c.say` tell of them. Throws
-/// InputError, of the key that is most likely at fault, where the memory of this machine does not suffice;
-/// the message says what would fit. Collective.
-void settle_memory(Configuration& c, parallel::Communicator comm);
+/// Has `c.say` tell what the wall of `resolved` parameters takes. Throws InputError, of the key that is most
+/// likely at fault, where the memory of this machine does not suffice; the message says what would fit.
+/// Collective.
+void check_memory(const Configuration& c, const peridynamics::Parameters& resolved,
+                  parallel::Communicator comm);
 
 }  // namespace rhexis::app

@@ -57,7 +57,7 @@ void CoupledVessel::find_load(const std::array<double, 3>& heart) {
 }
 
 void CoupledVessel::extract_wall(peridynamics::Parameters& wall) {
-  segment_ = extract_wall_segment(data_, p_.resolution == "paper", wall);
+  segment_ = extract_wall_segment(data_, p_.resolution == Resolution::paper, wall);
   *wall.critical_stretch *= chosen_.strength_factor;
   wall.pressure = pressure();
 }
@@ -69,7 +69,7 @@ void CoupledVessel::set_windows(const peridynamics::Parameters& wall, double tim
     throw InputError("shorter than a time step, " + quantity(time_step, "s"), "coupling.window");
   steps_per_window_ = std::max(1L, std::lround(steps));
   // Ends that the vessel does not have must not carry its wall.
-  if (segment_.whole || peridynamics::end_condition(wall) != peridynamics::EndCondition::clamped) return;
+  if (segment_.whole || wall.ends != peridynamics::EndCondition::clamped) return;
   const double reach = clamped_reach(std::midpoint(wall.inner_radius, wall.outer_radius),
                                      wall.outer_radius - wall.inner_radius, wall.law.poisson_ratio);
   const double free = wall.length - 2 * *wall.end_length;
@@ -128,7 +128,7 @@ void CoupledVessel::count_leak(double time_s) {
 }
 
 nlohmann::ordered_json CoupledVessel::results(double network_seconds) const {
-  nlohmann::ordered_json json{{"mode", p_.mode},
+  nlohmann::ordered_json json{{"mode", name_of(p_.mode)},
                               {"simulated_length_m", segment_.length},
                               {"simulated_from_m", segment_.start},
                               {"spacing_of_constant_N_m", segment_.paper_spacing},

@@ -55,7 +55,7 @@ class CoupledVessel {
                 std::vector<std::string>& warnings);
 
   const hemodynamics::NetworkVessel& vessel() const { return chosen_; }
-  bool two_way() const { return p_.mode == "two_way"; }
+  bool two_way() const { return p_.two_way(); }
 
   /// Geometry, strength and load of the segment of its wall that is simulated, into the parameters of the
   /// input, which are not resolved yet. Throws InputError.

@@ -53,7 +53,7 @@ void CoupledVessel::open_table(const output::ResultsFolder& folder) {
 }
 
 void CoupledVessel::save(output::CheckpointWriter& file, double inflow) const {
-  file.write("coupling_mode", p_.mode);
+  file.write("coupling_mode", std::string(name_of(p_.mode)));
   file.write(coupled_vessel_name, chosen_.name);
   file.write("network_inflow", inflow);
   for (std::size_t i = 0; i < 3; ++i) file.write(load_name(i), intact_load_.pressure[i]);
@@ -81,7 +81,8 @@ void CoupledVessel::compare_with(output::CheckpointReader& file, double inflow, 
   double earlier_inflow = 0;
   std::array<double, 3> load{};
   file.read("coupling_mode", mode);
-  if (mode != p_.mode) file.refuse(fmt::format("coupling.mode was \"{}\", and now is \"{}\"", mode, p_.mode));
+  if (mode != name_of(p_.mode))
+    file.refuse(fmt::format("coupling.mode was \"{}\", and now is \"{}\"", mode, name_of(p_.mode)));
   file.read(coupled_vessel_name, vessel);
   file.read("network_inflow", earlier_inflow);
   for (std::size_t i = 0; i < 3; ++i) file.read(load_name(i), load[i]);

@@ -15,22 +15,20 @@ ParameterList declare(Parameters& p) {
        .target = &p.mode,
        .meaning = "one_way: the network loads the wall, as in the paper; two_way: the wall's lumen and leak "
                   "change the network as well.",
-       .source = "Sec. 3.3",
-       .choices = {"one_way", "two_way"}},
+       .source = "Sec. 3.3"},
       {.key = "coupling.window",
        .target = &p.window,
        .unit = "s",
        .meaning = "Time between exchanges with the network where mode is two_way; \"auto\" is a "
                   "two-hundredth of time.end.",
        .range = Range::positive(),
-       .only_with = {{"coupling.mode", {"\"two_way\""}}}},
+       .only_with = {when("coupling.mode", Mode::two_way)}},
       {.key = "coupling.resolution",
        .target = &p.resolution,
        .meaning = "paper: discretisation.particles for the whole vessel; auto: as the paper, but where that "
                   "leaves fewer than 4 spacings across the wall, only the middle piece that so many "
                   "particles fill at 5 across.",
-       .source = "Sec. 3.3",
-       .choices = {"auto", "paper"}},
+       .source = "Sec. 3.3"},
       {.key = "cascade.events",
        .target = &p.events,
        .unit = "1",
@@ -42,7 +40,6 @@ ParameterList declare(Parameters& p) {
        .target = &p.outcome,
        .meaning = "What a ruptured vessel does from then on: it bleeds through the opening that it had at "
                   "the end, or it is occluded (a clot, a clamp, a spasm) and the others carry its flow.",
-       .choices = {"bleeding", "occlusion"},
        .only_with = {{"cascade.events", {}}}},
       {.key = "cascade.risk_limit",
        .target = &p.risk_limit,
@@ -70,7 +67,6 @@ ParameterList declare(Parameters& p) {
       {.key = "body.compression_axis",
        .target = &p.compression_axis,
        .meaning = "Axis along which the compression's range is measured.",
-       .choices = {"x", "y", "z"},
        .only_with = {{"body.compression", {}}}},
       {.key = "body.compression_from",
        .target = &p.compression_from,
@@ -88,7 +84,7 @@ ParameterList declare(Parameters& p) {
 Compression compression(const Parameters& p) {
   Compression c;
   c.pressure = p.compression;
-  c.axis = p.compression_axis[0] - 'x';
+  c.axis = static_cast<int>(p.compression_axis);
   c.from = p.compression_from.value_or(c.from);
   c.to = p.compression_to.value_or(c.to);
   return c;

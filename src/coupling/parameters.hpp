@@ -11,20 +11,52 @@
 
 namespace rhexis::coupling {
 
+/// Whether the wall changes the network that loads it.
+enum class Mode { one_way, two_way };
+
+constexpr auto name_table(Mode) {
+  using enum Mode;
+  return std::to_array<Named<Mode>>({{one_way, "one_way"}, {two_way, "two_way"}});
+}
+
+/// How the spacing of a handed-over vessel is found.
+enum class Resolution { automatic, paper };
+
+constexpr auto name_table(Resolution) {
+  using enum Resolution;
+  return std::to_array<Named<Resolution>>({{automatic, "auto"}, {paper, "paper"}});
+}
+
+enum class Axis { x, y, z };
+
+constexpr auto name_table(Axis) {
+  using enum Axis;
+  return std::to_array<Named<Axis>>({{x, "x"}, {y, "y"}, {z, "z"}});
+}
+
+/// What a ruptured vessel does from then on.
+enum class Outcome { bleeding, occlusion };
+
+constexpr auto name_table(Outcome) {
+  using enum Outcome;
+  return std::to_array<Named<Outcome>>({{bleeding, "bleeding"}, {occlusion, "occlusion"}});
+}
+
 struct Parameters {
-  std::string vessel;               ///< "screening": the one at highest risk
-  std::string mode = "one_way";     ///< "one_way" | "two_way"
-  std::optional<double> window;     ///< s
-  std::string resolution = "auto";  ///< "auto" | "paper"
+  std::string vessel;  ///< "screening": the one at highest risk
+  Mode mode = Mode::one_way;
+  std::optional<double> window;  ///< s
+  Resolution resolution = Resolution::automatic;
 
   double tension = 0, atmosphere = 0, compression = 0;  ///< Pa
-  std::string compression_axis = "x";
+  Axis compression_axis = Axis::x;
   std::optional<double> compression_from, compression_to;  ///< m
 
-  std::int64_t events = 0;           ///< most vessels of a cascade; 0: one vessel, no cascade
-  std::string outcome = "bleeding";  ///< "bleeding" | "occlusion"
+  std::int64_t events = 0;  ///< most vessels of a cascade; 0: one vessel, no cascade
+  Outcome outcome = Outcome::bleeding;
   double risk_limit = 1;
 
+  bool two_way() const { return mode == Mode::two_way; }
   bool screens() const { return vessel == "screening"; }
 };
 

@@ -2,18 +2,18 @@
 #include "hemodynamics/parameters.hpp"
 
 #include "core/error.hpp"
+#include "network/parameters.hpp"
 
 namespace rhexis::hemodynamics {
 
 ParameterList declare(Parameters& p) {
   return {
       {.key = "blood.viscosity_law",
-       .target = &p.viscosity_law,
+       .target = &p.viscosity.law,
        .meaning =
            "Apparent viscosity: constant, or rising and falling with the diameter as measured in glass tubes "
            "(in_vitro: Pries et al. 1992) or in living tissue (in_vivo: Pries et al. 1994).",
-       .source = "Eq. (9)",
-       .choices = {"constant", "in_vitro", "in_vivo"}},
+       .source = "Eq. (9)"},
       {.key = "blood.viscosity",
        .target = &p.viscosity.constant,
        .unit = "Pa s",
@@ -21,14 +21,14 @@ ParameterList declare(Parameters& p) {
        .meaning = "Viscosity of the law \"constant\".",
        .source = "Eq. (9)",
        .range = Range::positive(),
-       .only_with = {{"blood.viscosity_law", {"\"constant\""}}}},
+       .only_with = {when("blood.viscosity_law", ViscosityLaw::constant)}},
       {.key = "blood.plasma_viscosity",
        .target = &p.viscosity.plasma,
        .unit = "Pa s",
        .default_in = "mPa s",
        .meaning = "Viscosity of plasma, of the laws that depend on the diameter.",
        .range = Range::positive(),
-       .only_with = {{"blood.viscosity_law", {"\"in_vitro\"", "\"in_vivo\""}}}},
+       .only_with = {when("blood.viscosity_law", ViscosityLaw::in_vitro, ViscosityLaw::in_vivo)}},
       {.key = "blood.haematocrit",
        .target = &p.viscosity.haematocrit,
        .unit = "1",
@@ -41,7 +41,7 @@ ParameterList declare(Parameters& p) {
        .meaning = "A vessel narrower than this has the viscosity of this diameter: the laws were not "
                   "measured below 3 um, and the one in vivo is infinite at 1.1 um.",
        .range = Range{.lower = 1.15e-6, .upper = 1e-5},
-       .only_with = {{"blood.viscosity_law", {"\"in_vitro\"", "\"in_vivo\""}}}},
+       .only_with = {when("blood.viscosity_law", ViscosityLaw::in_vitro, ViscosityLaw::in_vivo)}},
       {.key = "blood.density",
        .target = &p.density,
        .unit = "kg/m3",
@@ -91,10 +91,33 @@ ParameterList declare(Parameters& p) {
   };
 }
 
-void resolve(Parameters& p) {
-  p.viscosity.law = p.viscosity_law == "constant"   ? ViscosityLaw::constant
-                    : p.viscosity_law == "in_vitro" ? ViscosityLaw::in_vitro
-                                                    : ViscosityLaw::in_vivo;
+ParameterList declare(GraphSolverOptions& options) {
+  const std::vector<Condition> a_graph{
+      when("network.source", network::Source::file),
+      when("network.tier", network::Tier::explicit_graph, network::Tier::distributed_graph)};
+  return {
+      {.key = "network.solver",
+       .target = &options.solver,
+       .meaning =
+           "For what is left of an explicit network when dead ends, series and parallels are eliminated: "
+           "nothing may be left (elimination), direct (ldlt), or conjugate gradients with a preconditioner.",
+       .only_with = a_graph},
+      {.key = "network.imbalance",
+       .target = &options.imbalance,
+       .unit = "1",
+       .meaning = "Stop when blood is conserved at the worst junction to this share of the inflow.",
+       .range = Range::between(1e-15, 1e-3),
+       .only_with = a_graph},
+      {.key = "network.max_iterations",
+       .target = &options.max_iterations,
+       .unit = "1",
+       .meaning = "Of an iterative solver.",
+       .range = Range::at_least(1),
+       .only_with = a_graph},
+  };
+}
+
+void check(const Parameters& p) {
   if (!p.acceleration.empty() && p.acceleration.size() != 3) {
     throw InputError("needs three components, or none", "flow.acceleration");
   }

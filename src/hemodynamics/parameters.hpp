@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "hemodynamics/viscosity.hpp"
 
 namespace rhexis::hemodynamics {
 
 struct Parameters {
-  std::string viscosity_law = "in_vivo";  ///< "constant" | "in_vitro" | "in_vivo"
-  Viscosity viscosity;
+  Viscosity viscosity{.law = ViscosityLaw::in_vivo};
   double density = 1060;  ///< kg/m3
+  GraphSolverOptions graph_solver;
   bool phase_separation = false;
   double phase_tolerance = 1e-8;
   std::int64_t phase_iterations = 200;
@@ -27,8 +28,11 @@ struct Parameters {
 
 ParameterList declare(Parameters& p);
 
-/// Completes `p` (the law's name). Throws InputError for values that do not fit together.
-void resolve(Parameters& p);
+/// The keys of section network that choose the solver of a graph's flow.
+ParameterList declare(GraphSolverOptions& options);
+
+/// Throws InputError for values that do not fit together.
+void check(const Parameters& p);
 
 /// The two conditions of a tree; throws InputError where they are not two.
 TreeBoundary tree_boundary(const Parameters& p);

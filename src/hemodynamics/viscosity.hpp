@@ -15,9 +15,17 @@
 
 #include <cmath>
 
+#include "core/enum_names.hpp"
+
 namespace rhexis::hemodynamics {
 
 enum class ViscosityLaw { constant, in_vitro, in_vivo };
+
+constexpr auto name_table(ViscosityLaw) {
+  using enum ViscosityLaw;
+  return std::to_array<Named<ViscosityLaw>>(
+      {{constant, "constant"}, {in_vitro, "in_vitro"}, {in_vivo, "in_vivo"}});
+}
 
 struct Viscosity {
   ViscosityLaw law = ViscosityLaw::constant;

@@ -22,7 +22,6 @@ ParameterList declare(Parameters& p) {
        .target = &p.renderer,
        .meaning = "Who draws: osmesa (no display needed), egl (no display needed), x11 (a display); auto "
                   "tries them in this order.",
-       .choices = {"auto", "osmesa", "egl", "x11"},
        .only_with = {{"insitu.scripts", {}}}},
       {.key = "insitu.time_limit",
        .target = &p.time_limit,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "insitu/pipeline.hpp"
 
 namespace rhexis::insitu {
 
@@ -15,9 +16,9 @@ struct Parameters {
   bool enabled = true;
   std::vector<std::string> scripts;
   std::optional<std::int64_t> every_steps;
-  std::string renderer = "auto";   ///< "auto" | "osmesa" | "egl" | "x11"
+  Renderer renderer = Renderer::automatic;
   double time_limit = 600;  ///< s, of one script at one picture
-  std::string live;       ///< "host:port"; empty: nobody is told
+  std::string live;         ///< "host:port"; empty: nobody is told
 };
 
 ParameterList declare(Parameters& p);

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "core/error.hpp"
 #include "core/field_view.hpp"
 #include "parallel/communicator.hpp"
@@ -25,6 +26,12 @@ namespace rhexis::insitu {
 /// Who draws. `automatic` takes the first that works of OSMesa (in memory, by the processor), EGL (no
 /// display, by a graphics card where there is one) and X11 (needs DISPLAY).
 enum class Renderer { automatic, osmesa, egl, x11 };
+
+constexpr auto name_table(Renderer) {
+  using enum Renderer;
+  return std::to_array<Named<Renderer>>(
+      {{automatic, "auto"}, {osmesa, "osmesa"}, {egl, "egl"}, {x11, "x11"}});
+}
 
 struct Settings {
   std::vector<std::string>

@@ -4,40 +4,33 @@
 namespace rhexis::network {
 namespace {
 
-Wall wall_of(const std::string& rule, double ratio) {
-  return {rule == "radius" ? WallRule::radius : WallRule::ratio, ratio};
-}
-
 ParameterList declare(WallParameters& p) {
-  const std::vector<std::string> rules{"ratio", "radius"};
   const char* rule =
       "Wall thickness over lumen radius: constant (\"ratio\"), or falling with the radius as in arteries "
       "(\"radius\": 0.12 in the aorta, 0.26 at 1.5 mm, 0.41 at 20 um). Of ";
   return {
       {.key = "wall.artery_rule",
-       .target = &p.artery_rule,
+       .target = &p.artery.rule,
        .meaning = std::string(rule) + "arteries.",
-       .source = "Boileau et al. 2015",
-       .choices = rules},
+       .source = "Boileau et al. 2015"},
       {.key = "wall.artery_ratio",
-       .target = &p.artery_ratio,
+       .target = &p.artery.ratio,
        .unit = "1",
        .meaning = "Wall thickness over lumen radius of arteries, for the rule \"ratio\".",
        .source = "Table 2",
        .range = Range::positive(),
-       .only_with = {{"wall.artery_rule", {"\"ratio\""}}}},
+       .only_with = {when("wall.artery_rule", WallRule::ratio)}},
       {.key = "wall.vein_rule",
-       .target = &p.vein_rule,
+       .target = &p.vein.rule,
        .meaning = std::string(rule) + "veins.",
-       .source = "Boileau et al. 2015",
-       .choices = rules},
+       .source = "Boileau et al. 2015"},
       {.key = "wall.vein_ratio",
-       .target = &p.vein_ratio,
+       .target = &p.vein.ratio,
        .unit = "1",
        .meaning = "The same of veins, for the rule \"ratio\".",
        .source = "Burton 1954 (vena cava: 1.5 mm at 30 mm)",
        .range = Range::positive(),
-       .only_with = {{"wall.vein_rule", {"\"ratio\""}}}},
+       .only_with = {when("wall.vein_rule", WallRule::ratio)}},
       {.key = "wall.young_modulus",
        .target = &p.young_modulus,
        .unit = "Pa",
@@ -57,15 +50,12 @@ ParameterList declare(WallParameters& p) {
 }  // namespace
 
 ParameterList declare(Parameters& p) {
-  const std::vector<rhexis::Condition> a_graph{{"network.source", {"\"file\""}},
-                                               {"network.tier", {"\"explicit\"", "\"distributed\""}}};
   ParameterList all{
       {.key = "network.source",
        .target = &p.source,
        .meaning = "Where the vessels come from: \"tree\" makes the arterial tree and its venous mirror by "
                   "the rules of [tree], \"file\" reads network.files.",
-       .source = "Sec. 3.3",
-       .choices = {"tree", "file"}},
+       .source = "Sec. 3.3"},
       {.key = "network.files",
        .target = &p.files,
        .meaning = "The user's own network: one VTP or JSON file, or two CSV files, junctions and vessels. "
@@ -73,32 +63,12 @@ ParameterList declare(Parameters& p) {
       {.key = "network.file_length_unit",
        .target = &p.file_length_unit,
        .meaning = "Unit of coordinates, radii and lengths in a VTP file, which cannot tell, e.g. \"mm\".",
-       .only_with = {{"network.source", {"\"file\""}}}},
+       .only_with = {when("network.source", Source::file)}},
       {.key = "network.tier",
        .target = &p.tier,
        .meaning = "How the network is held: \"implicit\" (trees only: nothing is stored), \"explicit\" (all "
                   "vessels in memory), \"distributed\" (over all ranks' memory); auto: implicit for a tree, "
-                  "explicit for files.",
-       .choices = {"auto", "implicit", "explicit", "distributed"}},
-      {.key = "network.solver",
-       .target = &p.solver,
-       .meaning =
-           "For what is left of an explicit network when dead ends, series and parallels are eliminated: "
-           "nothing may be left (elimination), direct (ldlt), or conjugate gradients with a preconditioner.",
-       .choices = {"auto", "elimination", "ldlt", "approximate_cholesky", "jacobi", "amg"},
-       .only_with = a_graph},
-      {.key = "network.imbalance",
-       .target = &p.imbalance,
-       .unit = "1",
-       .meaning = "Stop when blood is conserved at the worst junction to this share of the inflow.",
-       .range = Range::between(1e-15, 1e-3),
-       .only_with = a_graph},
-      {.key = "network.max_iterations",
-       .target = &p.max_iterations,
-       .unit = "1",
-       .meaning = "Of an iterative solver.",
-       .range = Range::at_least(1),
-       .only_with = a_graph},
+                  "explicit for files."},
       {.key = "network.statistics",
        .target = &p.statistics,
        .meaning = "Sweep over all vessels of a tree for statistics and histograms by generation."},
@@ -120,18 +90,16 @@ ParameterList declare(Parameters& p) {
        .target = &p.shown_subtree,
        .meaning = "Place in the tree from which on vessels are stored and drawn, e.g. the path of a vessel a "
                   "few generations above the capillaries.",
-       .only_with = {{"network.source", {"\"tree\""}}}},
+       .only_with = {when("network.source", Source::tree)}},
   };
   for (const ParameterList& part : {declare(p.tree), declare(p.wall), declare(p.weakness)})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }
 
-Wall artery_wall(const WallParameters& p) {
-  return wall_of(p.artery_rule, p.artery_ratio);
-}
-Wall vein_wall(const WallParameters& p) {
-  return wall_of(p.vein_rule, p.vein_ratio);
+Tier Parameters::resolved_tier() const {
+  if (tier != Tier::automatic) return tier;
+  return is_tree() ? Tier::implicit_tree : Tier::explicit_graph;
 }
 
 }  // namespace rhexis::network

@@ -15,20 +15,35 @@
 namespace rhexis::network {
 
 struct WallParameters {
-  std::string artery_rule = "ratio", vein_rule = "ratio";
-  double artery_ratio = 1.0 / 3, vein_ratio = 0.1;
+  Wall artery{.rule = WallRule::ratio, .ratio = 1.0 / 3}, vein{.rule = WallRule::ratio, .ratio = 0.1};
   double young_modulus = 3.5e6;  ///< Pa
   double poisson_ratio = 0.25;
 };
 
+/// Where the vessels come from.
+enum class Source { tree, file };
+
+constexpr auto name_table(Source) {
+  using enum Source;
+  return std::to_array<Named<Source>>({{tree, "tree"}, {file, "file"}});
+}
+
+/// How a network is held: nothing of a tree is stored; all vessels in memory; over all ranks' memory.
+enum class Tier { automatic, implicit_tree, explicit_graph, distributed_graph };
+
+constexpr auto name_table(Tier) {
+  using enum Tier;
+  return std::to_array<Named<Tier>>({{automatic, "auto"},
+                                     {implicit_tree, "implicit"},
+                                     {explicit_graph, "explicit"},
+                                     {distributed_graph, "distributed"}});
+}
+
 struct Parameters {
-  std::string source = "tree";  ///< "tree" | "file"
+  Source source = Source::tree;
   std::vector<std::string> files;
   std::string file_length_unit = "m";
-  std::string tier = "auto";  ///< "auto" | "implicit" | "explicit" | "distributed"
-  std::string solver = "auto";
-  double imbalance = 1e-10;
-  std::int64_t max_iterations = 20000;
+  Tier tier = Tier::automatic;
   bool statistics = true;
   std::vector<std::string> query;
   std::optional<std::int64_t> shown_vessels;
@@ -37,12 +52,13 @@ struct Parameters {
   TreeParameters tree;
   WallParameters wall;
   WeaknessParameters weakness;
+
+  bool is_tree() const { return source == Source::tree; }
+  /// How the network is held, once `automatic` is resolved: implicit for a tree, explicit for files.
+  Tier resolved_tier() const;
 };
 
 /// The keys, bound to `p`.
 ParameterList declare(Parameters& p);
-
-Wall artery_wall(const WallParameters& p);
-Wall vein_wall(const WallParameters& p);
 
 }  // namespace rhexis::network

@@ -126,8 +126,7 @@ ParameterList declare(TreeParameters& p) {
        .range = Range::between(0.1, 10)},
       {.key = "tree.layout",
        .target = &p.layout,
-       .meaning = "Positions: bifurcations all in one plane, or in two planes by turns.",
-       .choices = {"spatial", "planar"}},
+       .meaning = "Positions: bifurcations all in one plane, or in two planes by turns."},
   };
 }
 
@@ -182,7 +181,7 @@ TreeRules rules_from(const TreeParameters& p, const Wall& artery_wall, const Wal
   rules.vein_radius_ratio = p.vein_radius_ratio;
   rules.artery_wall = artery_wall;
   rules.vein_wall = vein_wall;
-  rules.layout = p.layout == "planar" ? TreeLayout::planar : TreeLayout::spatial;
+  rules.layout = p.layout;
   check_narrowest(rules, p.least_asymmetry ? "tree.least_asymmetry" : "tree.asymmetry");
   return rules;
 }

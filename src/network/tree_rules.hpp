@@ -24,7 +24,12 @@
 
 namespace rhexis::network {
 
-enum class TreeLayout { planar, spatial };
+enum class TreeLayout { spatial, planar };
+
+constexpr auto name_table(TreeLayout) {
+  using enum TreeLayout;
+  return std::to_array<Named<TreeLayout>>({{spatial, "spatial"}, {planar, "planar"}});
+}
 
 struct TreeRules {
   static constexpr int most_generations = 40;
@@ -81,7 +86,7 @@ struct TreeParameters {
   std::vector<CurvePoint> length_by_radius;
   double length_spread = 0;
   double vein_radius_ratio = 1;
-  std::string layout = "spatial";
+  TreeLayout layout = TreeLayout::spatial;
 };
 
 ParameterList declare(TreeParameters& p);

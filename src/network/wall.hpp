@@ -4,12 +4,19 @@
 
 #include <cmath>
 
+#include "core/enum_names.hpp"
+
 namespace rhexis::network {
 
 /// How thick walls are. `ratio`: h = ratio r0. `radius`: h / r0 = 0.2802 exp(-505.3 r0) + 0.1324 exp(-11.14
 /// r0), r0 in m: a fit to arteries of all calibres (Blanco et al. 2015; as in Boileau et al. 2015,
 /// doi:10.1002/cnm.2732).
 enum class WallRule { ratio, radius };
+
+constexpr auto name_table(WallRule) {
+  using enum WallRule;
+  return std::to_array<Named<WallRule>>({{ratio, "ratio"}, {radius, "radius"}});
+}
 
 struct Wall {
   WallRule rule = WallRule::ratio;

@@ -28,10 +28,7 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields) {
        .meaning = "Fields stored of every particle beside its position; an empty list stores no particles.",
        .source = "Sec. 3.4",
        .choices = fields},
-      {.key = "output.precision",
-       .target = &p.precision,
-       .meaning = "Of the values stored of particles.",
-       .choices = {"single", "double"}},
+      {.key = "output.precision", .target = &p.precision, .meaning = "Of the values stored of particles."},
       declare_format(p),
       {.key = "output.checkpoint_every",
        .target = &p.checkpoint_every,
@@ -58,18 +55,13 @@ Parameter declare_format(Parameters& p) {
       .meaning =
           "How particles and networks are stored: as particles.h5 and network.h5 with .xdmf files beside "
           "them, which ParaView reads in any version; as particles.vtkhdf and network.vtkhdf, poly data over "
-          "time, which it reads from version 5.12 on (Debian 13 has 5.13, Debian 12 has 5.11); or as both.",
-      .choices = {"xdmf", "vtkhdf", "both"}};
-}
-
-Precision precision_of(const Parameters& p) {
-  return p.precision == "double" ? Precision::double_precision : Precision::single_precision;
+          "time, which it reads from version 5.12 on (Debian 13 has 5.13, Debian 12 has 5.11); or as both."};
 }
 
 std::vector<SeriesFormat> formats_of(const Parameters& p) {
   std::vector<SeriesFormat> formats;
-  if (p.format != "vtkhdf") formats.push_back(SeriesFormat::xdmf);
-  if (p.format != "xdmf") formats.push_back(SeriesFormat::vtkhdf);
+  if (p.format != StoredAs::vtkhdf) formats.push_back(SeriesFormat::xdmf);
+  if (p.format != StoredAs::xdmf) formats.push_back(SeriesFormat::vtkhdf);
   return formats;
 }
 

@@ -12,12 +12,20 @@
 
 namespace rhexis::output {
 
+/// What output.format asks for.
+enum class StoredAs { xdmf, vtkhdf, both };
+
+constexpr auto name_table(StoredAs) {
+  using enum StoredAs;
+  return std::to_array<Named<StoredAs>>({{xdmf, "xdmf"}, {vtkhdf, "vtkhdf"}, {both, "both"}});
+}
+
 struct Parameters {
   std::optional<std::int64_t> every_steps;
   std::optional<double> every_time;  ///< s
   std::vector<std::string> fields;
-  std::string precision = "single";  ///< "single" | "double"
-  std::string format = "xdmf";     ///< "xdmf" | "vtkhdf" | "both"
+  Precision precision = Precision::single_precision;
+  StoredAs format = StoredAs::xdmf;
   std::int64_t checkpoint_every = 0;
   bool movie = true;
   double frames_per_second = 12;
@@ -30,7 +38,6 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields);
 Parameter declare_format(Parameters& p);
 
 /// What the keys say of a series.
-Precision precision_of(const Parameters& p);
 std::vector<SeriesFormat> formats_of(const Parameters& p);
 
 /// Steps at which output is due, ascending, with the first (0) and the last (`steps`). Throws InputError

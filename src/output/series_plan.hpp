@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/field_view.hpp"
+#include "core/precision.hpp"
 
 namespace rhexis::output {
 
@@ -15,8 +16,6 @@ enum class SeriesFormat {
   xdmf,    ///< NAME.h5 and .xdmf, see XdmfSeries
   vtkhdf,  ///< NAME.vtkhdf, see VtkHdfSeries
 };
-
-enum class Precision { single_precision, double_precision };
 
 /// What is to be stored, and where.
 struct SeriesPlan {

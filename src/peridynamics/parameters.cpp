@@ -68,16 +68,14 @@ ParameterList declare(Parameters& p) {
        .target = &p.cross_section,
        .meaning = "Arrangement of particles over the cross-section: rings that follow the wall, or the "
                   "paper's cubic lattice clipped to the wall.",
-       .source = "Sec. 3.2",
-       .choices = {"polar", "lattice"}},
+       .source = "Sec. 3.2"},
       {.key = "discretisation.surface_correction",
        .target = &p.surface_correction,
        .meaning =
            "Weights of bonds that make up for what families near a surface lack: none (the paper); volume; "
            "energy; or calibrated, so that the wall has the elastic energy of every homogeneous strain "
            "(polar only). \"auto\" is calibrated on a polar cross-section, none on a lattice.",
-       .source = "Le & Bobaru 2018; Madenci & Oterkus 2014; Prakash 2018",
-       .choices = {"auto", "none", "volume", "energy", "calibrated"}},
+       .source = "Le & Bobaru 2018; Madenci & Oterkus 2014; Prakash 2018"},
       {.key = "discretisation.spacing",
        .target = &p.spacing,
        .unit = "m",
@@ -109,26 +107,24 @@ ParameterList declare(Parameters& p) {
        .meaning = "Where the lattice falls: offset of its nodes from the axis in x and y, in spacings (0.5: "
                   "the axis lies between four columns; 0: on a column).",
        .range = Range::between(0, 1),
-       .only_with = {{"discretisation.cross_section", {"\"lattice\""}}}},
+       .only_with = {when("discretisation.cross_section", Arrangement::lattice)}},
       {.key = "discretisation.rotation",
        .target = &p.rotation,
        .unit = "rad",
        .meaning = "Turn of the arrangement about the vessel's axis: results should not depend on it."},
       {.key = "discretisation.bond_precision",
        .target = &p.bond_precision,
-       .meaning = "Arithmetic of the bonds; positions and velocities are always double.",
-       .choices = {"single", "double"}},
+       .meaning = "Arithmetic of the bonds; positions and velocities are always double."},
       {.key = "boundary.ends",
        .target = &p.ends,
        .meaning = "Both ends: free; clamped (held still); sliding (no axial motion, radial motion free); "
-                  "axial_periodic (a piece of an endless vessel).",
-       .choices = {"free", "clamped", "sliding", "axial_periodic"}},
+                  "axial_periodic (a piece of an endless vessel)."},
       {.key = "boundary.end_length",
        .target = &p.end_length,
        .unit = "m",
        .meaning = "Length held at each end where ends are clamped or sliding; \"auto\" is one horizon.",
        .range = Range::positive(),
-       .only_with = {{"boundary.ends", {"\"clamped\"", "\"sliding\""}}}},
+       .only_with = {when("boundary.ends", EndCondition::clamped, EndCondition::sliding)}},
       {.key = "load.pressure",
        .target = &p.pressure,
        .unit = "Pa",
@@ -138,17 +134,16 @@ ParameterList declare(Parameters& p) {
                   "as hard as a blood pressure of 222 kPa would push it.",
        .source = "Table 2, Eqs. (7), (8)",
        .range = Range::not_negative(),
-       .only_with = {{"load.schedule", {"\"step\"", "\"ramp\"", "\"smooth_ramp\""}}}},
+       .only_with = {when("load.schedule", Schedule::step, Schedule::ramp, Schedule::smooth_ramp)}},
       {.key = "load.schedule",
        .target = &p.schedule,
-       .meaning = "Course of the pressure: full at once; linear ramp; ramp as half a cosine; or load.table.",
-       .choices = {"step", "ramp", "smooth_ramp", "table"}},
+       .meaning = "Course of the pressure: full at once; linear ramp; ramp as half a cosine; or load.table."},
       {.key = "load.ramp_time",
        .target = &p.ramp_time,
        .unit = "s",
        .meaning = "Duration of a ramp; \"auto\" is time.end.",
        .range = Range::positive(),
-       .only_with = {{"load.schedule", {"\"ramp\"", "\"smooth_ramp\""}}}},
+       .only_with = {when("load.schedule", Schedule::ramp, Schedule::smooth_ramp)}},
       {.key = "load.table",
        .target = &p.table,
        .unit = "s, Pa",
@@ -160,19 +155,18 @@ ParameterList declare(Parameters& p) {
        .meaning = "CSV file to read the table from, instead of load.table: a header \"time [s],pressure "
                   "[mmHg]\" (any units), then a row for each point. Looked for from the working folder, then "
                   "beside the input.",
-       .only_with = {{"load.schedule", {"\"table\""}}}},
+       .only_with = {when("load.schedule", Schedule::table)}},
       {.key = "load.repeat",
        .target = &p.repeat,
        .meaning = "Repeat the table, as heart beats do: it begins at 0, its last time is the period, and its "
                   "first and last pressure agree.",
-       .only_with = {{"load.schedule", {"\"table\""}}}},
+       .only_with = {when("load.schedule", Schedule::table)}},
       {.key = "load.layer",
        .target = &p.layer,
        .meaning = "Body force of the pressure in the innermost layer of the wall: nonlocal (distributed as "
                   "bonds pull that a surface cuts, resultant exactly P 2 pi r0 L), consistent (the same "
                   "everywhere, resultant exact) or paper (P / thickness).",
-       .source = "Eq. (8)",
-       .choices = {"nonlocal", "consistent", "paper"}},
+       .source = "Eq. (8)"},
       {.key = "load.layer_thickness",
        .target = &p.layer_thickness,
        .unit = "m",
@@ -182,15 +176,14 @@ ParameterList declare(Parameters& p) {
       {.key = "load.venting",
        .target = &p.venting,
        .meaning = "After rupture: none (the dead load goes on pushing fragments, as in the paper) or orifice "
-                  "(the pressure falls as the wall opens: P / (1 + (A_open / A_supply)^2)).",
-       .choices = {"none", "orifice"}},
+                  "(the pressure falls as the wall opens: P / (1 + (A_open / A_supply)^2))."},
       {.key = "load.supply_area",
        .target = &p.supply_area,
        .unit = "m2",
        .meaning =
            "Area through which blood is supplied to the ruptured vessel; \"auto\" is the lumen, pi r0^2.",
        .range = Range::positive(),
-       .only_with = {{"load.venting", {"\"orifice\""}}}},
+       .only_with = {when("load.venting", Venting::orifice)}},
       {.key = "load.discharge_coefficient",
        .target = &p.discharge_coefficient,
        .unit = "1",
@@ -256,13 +249,6 @@ double constant_number_spacing(double inner_radius, double outer_radius, double 
   return std::cbrt(wall_area * length / particles);
 }
 
-EndCondition end_condition(const Parameters& p) {
-  if (p.ends == "clamped") return EndCondition::clamped;
-  if (p.ends == "sliding") return EndCondition::sliding;
-  if (p.ends == "axial_periodic") return EndCondition::axial_periodic;
-  return EndCondition::free;
-}
-
 namespace {
 
 void resolve_spacing(Parameters& p) {
@@ -326,7 +312,7 @@ void resolve_load(Parameters& p) {
   if (!p.ramp_time) p.ramp_time = p.end_time;
   if (!p.layer_thickness) p.layer_thickness = p.horizon;
   if (!p.supply_area) p.supply_area = std::numbers::pi * p.inner_radius * p.inner_radius;
-  if (p.schedule == "table") {
+  if (p.schedule == Schedule::table) {
     if (p.table.size() < 2) {
       throw InputError("schedule \"table\" needs at least two points [time, pressure], or load.table_file",
                        "load.table");
@@ -345,15 +331,14 @@ void resolve_load(Parameters& p) {
 
 void resolve_ends(Parameters& p) {
   if (!p.end_length) p.end_length = p.horizon;
-  const EndCondition ends = end_condition(p);
-  if (ends == EndCondition::axial_periodic) {
+  if (p.ends == EndCondition::axial_periodic) {
     if (p.length < 2 * *p.horizon + *p.spacing) {
       throw InputError(
           "a periodic piece must be longer than two horizons, here " + quantity(2 * *p.horizon, "m"),
           "vessel.length");
     }
   }
-  p.spots.period = ends == EndCondition::axial_periodic ? p.length : INFINITY;
+  p.spots.period = p.ends == EndCondition::axial_periodic ? p.length : INFINITY;
 }
 
 }  // namespace
@@ -367,12 +352,12 @@ std::vector<std::string> resolve(Parameters& p) {
   if (p.lattice_shift.size() != 2) {
     throw InputError("two numbers are needed, for x and y", "discretisation.lattice_shift");
   }
-  if (p.surface_correction == "calibrated" && p.cross_section != "polar") {
+  if (p.surface_correction == SurfaceCorrection::calibrated && p.cross_section != Arrangement::polar) {
     throw InputError("\"calibrated\" needs discretisation.cross_section = \"polar\"",
                      "discretisation.surface_correction");
   }
   resolve_spacing(p);
-  settle_critical_stretch(p);
+  resolve_critical_stretch(p);
   if (p.length < *p.spacing) throw InputError("the vessel is shorter than one spacing", "vessel.length");
   resolve_load(p);
   if (p.equilibrium_pressure > 0) p.schedule_start = time_of_pressure(p, p.equilibrium_pressure);
@@ -396,12 +381,12 @@ std::vector<std::string> resolve(Parameters& p) {
     warnings.push_back("a nearly incompressible wall (material.poisson_ratio = " + text(p.law.poisson_ratio) +
                        ") does not converge with the spacing: \"check\" tells how far it is off");
   }
-  if (p.layer == "paper" && *p.layer_thickness > wall * (1 + 1e-9)) {
+  if (p.layer == LayerForce::paper && *p.layer_thickness > wall * (1 + 1e-9)) {
     warnings.push_back("the loaded layer (" + quantity(*p.layer_thickness, "m") +
                        ") is thicker than the wall (" + quantity(wall, "m") +
                        "): part of the load falls outside it and is lost");
   }
-  if (p.layer == "paper" && std::ranges::any_of(p.spots.list, [&](const Spot& spot) {
+  if (p.layer == LayerForce::paper && std::ranges::any_of(p.spots.list, [&](const Spot& spot) {
         return spot.thickness < 1 && spot.thickness * wall < *p.layer_thickness;
       })) {
     warnings.push_back("a spot is thinner than the loaded layer (" + quantity(*p.layer_thickness, "m") +

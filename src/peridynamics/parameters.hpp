@@ -8,50 +8,105 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "core/precision.hpp"
 #include "peridynamics/geometry/heterogeneity_parameters.hpp"
 #include "peridynamics/laws/law_parameters.hpp"
 
 namespace rhexis::peridynamics {
 
-enum class EndCondition { free, clamped, axial_periodic, sliding };
+/// How both ends are held: not at all, still, without axial motion, or joined to each other.
+enum class EndCondition { free, clamped, sliding, axial_periodic };
+
+constexpr auto name_table(EndCondition) {
+  using enum EndCondition;
+  return std::to_array<Named<EndCondition>>(
+      {{free, "free"}, {clamped, "clamped"}, {sliding, "sliding"}, {axial_periodic, "axial_periodic"}});
+}
+
+/// Of particles over the cross-section.
+enum class Arrangement { polar, lattice };
+
+constexpr auto name_table(Arrangement) {
+  using enum Arrangement;
+  return std::to_array<Named<Arrangement>>({{polar, "polar"}, {lattice, "lattice"}});
+}
+
+/// See bonds/surface_correction.hpp.
+enum class SurfaceCorrection { automatic, none, volume, energy, calibrated };
+
+constexpr auto name_table(SurfaceCorrection) {
+  using enum SurfaceCorrection;
+  return std::to_array<Named<SurfaceCorrection>>({{automatic, "auto"},
+                                                  {none, "none"},
+                                                  {volume, "volume"},
+                                                  {energy, "energy"},
+                                                  {calibrated, "calibrated"}});
+}
+
+/// Course of the pressure in time (loads/schedule.hpp).
+enum class Schedule { step, ramp, smooth_ramp, table };
+
+constexpr auto name_table(Schedule) {
+  using enum Schedule;
+  return std::to_array<Named<Schedule>>(
+      {{step, "step"}, {ramp, "ramp"}, {smooth_ramp, "smooth_ramp"}, {table, "table"}});
+}
+
+/// Of the pressure over its layer (loads/pressure_layer.hpp).
+enum class LayerForce { nonlocal, consistent, paper };
+
+constexpr auto name_table(LayerForce) {
+  using enum LayerForce;
+  return std::to_array<Named<LayerForce>>(
+      {{nonlocal, "nonlocal"}, {consistent, "consistent"}, {paper, "paper"}});
+}
+
+/// What becomes of the load after rupture.
+enum class Venting { none, orifice };
+
+constexpr auto name_table(Venting) {
+  using enum Venting;
+  return std::to_array<Named<Venting>>({{none, "none"}, {orifice, "orifice"}});
+}
 
 /// All in SI units. Values that "auto" leaves empty are filled in by `resolve`.
 struct Parameters {
   double inner_radius = 0, outer_radius = 0, length = 0;  ///< m
 
-  double density = 1300;        ///< kg/m3
+  double density = 1300;         ///< kg/m3
   double young_modulus = 3.5e6;  ///< Pa
   std::optional<double> critical_stretch;
   std::optional<double> energy_release_rate;  ///< J/m2; empty once critical_stretch has been found from it
   LawChoice law;
 
-  std::string cross_section = "polar";       ///< "lattice" | "polar"
-  std::string surface_correction = "auto";  ///< see surface_correction.hpp
-  std::optional<double> spacing;   ///< m
+  Arrangement cross_section = Arrangement::polar;
+  SurfaceCorrection surface_correction = SurfaceCorrection::automatic;
+  std::optional<double> spacing;  ///< m
   std::optional<std::int64_t> particles;
-  std::optional<double> horizon;      ///< m
-  double horizon_ratio = 3.5;           ///< horizon / spacing where `horizon` is "auto"
-  std::vector<double> lattice_shift{0.5, 0.5};  ///< of the nearest column from the axis, in spacings, two numbers
-  double rotation = 0;                ///< rad
-  std::string bond_precision = "single";         ///< "single" | "double"
+  std::optional<double> horizon;  ///< m
+  double horizon_ratio = 3.5;     ///< horizon / spacing where `horizon` is "auto"
+  std::vector<double> lattice_shift{0.5,
+                                    0.5};  ///< of the nearest column from the axis, in spacings, two numbers
+  double rotation = 0;                     ///< rad
+  Precision bond_precision = Precision::single_precision;
 
-  std::string ends = "clamped";                  ///< see EndCondition
+  EndCondition ends = EndCondition::clamped;
   std::optional<double> end_length;  ///< m held at each end
 
   double equilibrium_pressure = 0;  ///< Pa, 0: the run starts from the unloaded wall
   double equilibrium_tolerance = 1e-4;
   double schedule_start = 0;  ///< s of the schedule at which the run starts
 
-  double pressure = 238e3;                    ///< Pa
-  std::string schedule = "ramp";                   ///< "step" | "ramp" | "smooth_ramp" | "table"
-  std::optional<double> ramp_time;        ///< s
-  std::vector<CurvePoint> table;          ///< (s, Pa)
-  std::string table_file;                 ///< where the table comes from; empty: the input itself
-  bool repeat = false;                    ///< the table, again and again
-  std::string layer = "nonlocal";                      ///< see PressureLayer
+  double pressure = 238e3;  ///< Pa
+  Schedule schedule = Schedule::ramp;
+  std::optional<double> ramp_time;  ///< s
+  std::vector<CurvePoint> table;    ///< (s, Pa)
+  std::string table_file;           ///< where the table comes from; empty: the input itself
+  bool repeat = false;              ///< the table, again and again
+  LayerForce layer = LayerForce::nonlocal;
   std::optional<double> layer_thickness;  ///< m
-  std::string venting = "orifice";                    ///< "none" | "orifice"
-  std::optional<double> supply_area;      ///< m2
+  Venting venting = Venting::orifice;
+  std::optional<double> supply_area;  ///< m2
   double discharge_coefficient = 0.62;
   double blood_density = 1060;  ///< kg/m3
 
@@ -78,7 +133,5 @@ std::vector<std::string> resolve(Parameters& p);
 
 /// Spacing (m) that cuts the wall's volume into `particles` cubes, Sec. 3.3: (pi (r1^2 - r0^2) L / N)^(1/3).
 double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles);
-
-EndCondition end_condition(const Parameters& p);
 
 }  // namespace rhexis::peridynamics

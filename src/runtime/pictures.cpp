@@ -17,17 +17,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* key = "insitu.scripts";
 
-insitu::Renderer renderer(const std::string& name) {
-  if (name == "osmesa") return insitu::Renderer::osmesa;
-  if (name == "egl") return insitu::Renderer::egl;
-  if (name == "x11") return insitu::Renderer::x11;
-  return insitu::Renderer::automatic;
-}
-
 insitu::Settings settings_for(const PicturesPlan& plan) {
   insitu::Settings settings;
   settings.scripts = plan.insitu.scripts;
-  settings.renderer = renderer(plan.insitu.renderer);
+  settings.renderer = plan.insitu.renderer;
   settings.particle_fields = plan.particle_fields;
   settings.network_fields = plan.network_fields;
   settings.live = plan.insitu.live;

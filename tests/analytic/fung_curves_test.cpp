@@ -55,12 +55,12 @@ class Rod {
     p.law.name = "fung";
     p.law.numbers["fung_exponent"] = exponent;
     p.critical_stretch = 0.9;
-    p.ends = "free";
+    p.ends = EndCondition::free;
     p.inner_radius = 1e-6;
     p.horizon = horizon_ratio * *p.spacing;
     p.outer_radius = (horizon_ratio + 1) * *p.spacing;
     p.length = (2 * std::ceil(horizon_ratio) + 1) * *p.spacing;
-    p.bond_precision = double_bonds ? "double" : "single";
+    p.bond_precision = double_bonds ? Precision::double_precision : Precision::single_precision;
     setup_ = test::setup_of(p, 1e-7);
     body_ = make_body(BodySetup(setup_), test::self());
     const CrossSection& s = setup_.lattice.section;

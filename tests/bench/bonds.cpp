@@ -41,12 +41,12 @@ struct Wall {
 
 std::unique_ptr<peridynamics::Body> make_body(const Wall& wall) {
   peridynamics::Parameters p = test::paper_vessel();
-  p.cross_section = wall.section;
-  p.surface_correction = "none";  // changes numbers, not work
+  p.cross_section = value_of<peridynamics::Arrangement>(wall.section).value();
+  p.surface_correction = peridynamics::SurfaceCorrection::none;  // changes numbers, not work
   p.spacing = (p.outer_radius - p.inner_radius) / wall.across;
   p.horizon = 3.5 * *p.spacing;
   p.length = wall.rows * *p.spacing;
-  p.bond_precision = wall.bonds;
+  p.bond_precision = value_of<Precision>(wall.bonds).value();
   p.law.name = wall.law;
   if (wall.law == "fung") p.law.numbers["fung_exponent"] = 5;
   if (wall.scattered) p.scatter.critical_stretch = p.scatter.stiffness = 0.03;

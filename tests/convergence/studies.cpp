@@ -132,14 +132,15 @@ double breathing_wave_number(const Parameters& p) {
 
 Parameters vessel(const Discretisation& d) {
   Parameters p = test::endless_vessel(d.cross_section, d.correction, d.layer, d.across, d.horizon_ratio);
-  p.bond_precision = d.precision;
+  p.bond_precision = value_of<Precision>(d.precision).value();
   resolve(p);
   return p;
 }
 
 EnergyError energy_error(const Discretisation& d, Strain strain) {
   Parameters p = vessel(d);
-  p.ends = "free";  // these displacements are not periodic; rows in the middle do not feel the ends
+  p.ends = peridynamics::EndCondition::free;  // these displacements are not periodic; rows in the middle do
+                                              // not feel the ends
   p.end_length.reset();
   resolve(p);
   const auto body = make_body(test::setup_of(p, 1e-7), test::self());
@@ -333,7 +334,7 @@ std::vector<Ring> expansion(const Discretisation& d, double pressure) {
 
 FreeEnds free_ends(const Discretisation& d, int rows) {
   Parameters p = vessel(d);
-  p.ends = "free";
+  p.ends = peridynamics::EndCondition::free;
   p.length = rows * *p.spacing;
   constexpr double pressure = 500;  // strains of 5e-4: small
   const auto body = make_body(test::setup_of(p, 1e-7), test::self());

@@ -42,9 +42,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 Parameters parameters(const Case& c) {
   Parameters p = test::paper_vessel(c.length);
-  p.cross_section = c.cross_section;
-  p.ends = c.ends;
-  p.bond_precision = c.precision;
+  p.cross_section = value_of<Arrangement>(c.cross_section).value();
+  p.ends = value_of<EndCondition>(c.ends).value();
+  p.bond_precision = value_of<Precision>(c.precision).value();
   p.critical_stretch = 0.1;
   p.scatter.critical_stretch = c.scatter;
   p.scatter.stiffness = c.scatter;
@@ -72,7 +72,7 @@ Outcome outcome(const Case& c, parallel::Communicator comm, int threads) {
   const ThinSpots thin_spots = setup.thin_spots;
   Outcome o;
   o.body = make_body(std::move(setup), comm);
-  const OpeningGauge gauge(lattice, *o.body, comm, end_condition(parameters(c)), thin_spots);
+  const OpeningGauge gauge(lattice, *o.body, comm, parameters(c).ends, thin_spots);
   double pressure = 120e3;
   for (int i = 0; i < 150; ++i) {
     if (i % 10 == 0) pressure = 120e3 * venting_factor(gauge.area(), 5e-7);
@@ -119,7 +119,7 @@ TEST_P(Invariance, BitIdentical) {
 
 TEST_P(Invariance, EquilibriumIsBitIdentical) {
   Parameters p = parameters(GetParam());
-  if (p.ends != "clamped") p.spots = {};  // beside a thin spot nothing holds what pushes sideways
+  if (p.ends != EndCondition::clamped) p.spots = {};  // beside a thin spot nothing holds what pushes sideways
   const auto find = [&](parallel::Communicator comm, int threads) {
     omp_set_num_threads(threads);
     return find_equilibrium(test::setup_of(p, 1e-6), 30e3, 1e-3, comm);

@@ -59,7 +59,7 @@ TEST_P(Scales, PressuresBeyondAllStrengthStayFinite) {
     Parameters p = test::small_tube("polar", doubles());
     p.critical_stretch = 0.25;
     p.pressure = pressure;
-    p.ends = "clamped";
+    p.ends = EndCondition::clamped;
     const auto body = make_body(test::setup_at(p, 0.8), test::self());
     for (int i = 0; i < 500; ++i) body->advance(pressure, pressure);
     body->observe(pressure);
@@ -71,7 +71,7 @@ TEST_P(Scales, PressuresBeyondAllStrengthStayFinite) {
 
 TEST_P(Scales, ClampedEndsBearALoadThatComesAtOnce) {
   Parameters p = test::small_tube("lattice", doubles());
-  p.ends = "clamped";
+  p.ends = EndCondition::clamped;
   const auto body = make_body(test::setup_at(p, 0.8), test::self());
   const double pressure = 238e3;
   for (int i = 1; i <= 2000; ++i) {
@@ -90,8 +90,8 @@ TEST(Walls, OfThreeAndOfFortySpacingsBearTheirLoad) {
     p.inner_radius = across * spacing / 2;
     p.outer_radius = 3 * p.inner_radius;
     p.length = 8 * spacing;
-    p.ends = "axial_periodic";
-    p.layer = "consistent";
+    p.ends = EndCondition::axial_periodic;
+    p.layer = LayerForce::consistent;
     const auto body = make_body(test::setup_at(p, 0.8), test::self());
     // Half a breathing period or so, in which so thick a wall overshoots Lame's displacement.
     const double pressure = 1e3;

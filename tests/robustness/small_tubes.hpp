@@ -15,10 +15,10 @@ inline peridynamics::Parameters small_tube(const std::string& cross_section, boo
   p.inner_radius = 0.3e-3;
   p.outer_radius = 0.6e-3;
   p.horizon = 2.3e-4;
-  p.cross_section = cross_section;
-  p.surface_correction = "none";
-  p.bond_precision = double_bonds ? "double" : "single";
-  p.ends = "free";
+  p.cross_section = value_of<peridynamics::Arrangement>(cross_section).value();
+  p.surface_correction = peridynamics::SurfaceCorrection::none;
+  p.bond_precision = double_bonds ? Precision::double_precision : Precision::single_precision;
+  p.ends = peridynamics::EndCondition::free;
   p.critical_stretch = 10;
   return p;
 }

@@ -23,7 +23,7 @@ class TimeStep : public testing::TestWithParam<Kind> {
  protected:
   Parameters tube() const {
     Parameters p = test::small_tube(GetParam().cross_section, false);
-    p.ends = GetParam().ends;
+    p.ends = value_of<EndCondition>(GetParam().ends).value();
     p.critical_stretch = GetParam().critical_stretch;
     return p;
   }

@@ -29,17 +29,17 @@ inline peridynamics::Parameters paper_vessel(double length = 2e-3) {
   p.density = 1300;
   p.young_modulus = 3.5e6;
   p.critical_stretch = 0.25;
-  p.cross_section = "lattice";
-  p.surface_correction = "auto";
+  p.cross_section = peridynamics::Arrangement::lattice;
+  p.surface_correction = peridynamics::SurfaceCorrection::automatic;
   p.spacing = 1e-4;
   p.horizon = 3.5e-4;
   p.lattice_shift = {0.5, 0.5};
-  p.bond_precision = "single";
-  p.ends = "clamped";
+  p.bond_precision = Precision::single_precision;
+  p.ends = peridynamics::EndCondition::clamped;
   p.pressure = 238e3;
-  p.schedule = "ramp";
-  p.layer = "paper";
-  p.venting = "none";
+  p.schedule = peridynamics::Schedule::ramp;
+  p.layer = peridynamics::LayerForce::paper;
+  p.venting = peridynamics::Venting::none;
   p.end_time = 2.25e-3;
   return p;
 }
@@ -50,13 +50,13 @@ inline peridynamics::Parameters endless_vessel(const std::string& cross_section,
                                                const std::string& correction, const std::string& layer,
                                                double across, double ratio) {
   peridynamics::Parameters p = paper_vessel();
-  p.cross_section = cross_section;
-  p.surface_correction = correction;
-  p.layer = layer;
+  p.cross_section = value_of<peridynamics::Arrangement>(cross_section).value();
+  p.surface_correction = value_of<peridynamics::SurfaceCorrection>(correction).value();
+  p.layer = value_of<peridynamics::LayerForce>(layer).value();
   p.spacing = (p.outer_radius - p.inner_radius) / across;
   p.horizon = ratio * *p.spacing;
   p.length = 16 * *p.spacing;
-  p.ends = "axial_periodic";
+  p.ends = peridynamics::EndCondition::axial_periodic;
   return p;
 }
 

@@ -52,7 +52,7 @@ class DistributedSolver final : public FlowSolver {
     {
       const Stopwatch watch(spent);
       flow_ = solve_flow(part_, conductances(part_.local, mechanics_.viscosity, {}), conditions_,
-                         solver_options(problem_), comm_);
+                         problem_.blood.graph_solver, comm_);
     }
     progress(fmt::format("  flow found in {}: {} unknowns after every rank's elimination", duration(spent),
                          grouped(flow_.core_junctions)));
@@ -113,7 +113,7 @@ class DistributedSolver final : public FlowSolver {
   /// Every rank reads the files, and keeps an even share of the vessels.
   void take_slice_of_file() {
     const network::BoundedGraph whole = make_graph_network(problem_, mechanics_.hydrostatic);
-    check_flow_problem(whole.graph, whole.conditions, solver_options(problem_));
+    check_flow_problem(whole.graph, whole.conditions, problem_.blood.graph_solver);
     for (const std::string& name : problem_.network.query)
       queried_.push_back(find_vessel(problem_, whole.graph, name, "network.query"));
     const auto share = [&](int r) {

@@ -48,7 +48,7 @@ class ExplicitSolver final : public FlowSolver {
         network_ = make_graph_network(problem_, mechanics_.hydrostatic);
         // A tree is connected by its making.
         if (!problem_.is_tree())
-          check_flow_problem(network_.graph, network_.conditions, solver_options(problem_));
+          check_flow_problem(network_.graph, network_.conditions, problem_.blood.graph_solver);
       });
       for (const std::string& name : problem_.network.query)
         queried_.push_back(find_vessel(problem_, network_.graph, name, "network.query"));
@@ -125,7 +125,7 @@ class ExplicitSolver final : public FlowSolver {
   }
 
   GraphFlow find_flow(NetworkSolution& s) {
-    const GraphSolverOptions options = solver_options(problem_);
+    const GraphSolverOptions options = problem_.blood.graph_solver;
     if (!problem_.failures.empty()) {
       ruptured_.emplace(network_.graph, conductances(network_.graph, mechanics_.viscosity, {}),
                         network_.conditions, problem_.failures);

@@ -28,8 +28,8 @@ TreeBoundary driving_boundary(const FlowProblem& problem, const network::TreePai
 
 VesselMechanics mechanics_of(const FlowProblem& problem) {
   const network::WallParameters& w = problem.network.wall;
-  VesselMechanics m{.artery_wall = network::artery_wall(w),
-                    .vein_wall = network::vein_wall(w),
+  VesselMechanics m{.artery_wall = w.artery,
+                    .vein_wall = w.vein,
                     .variation = network::WallVariation(problem.network.weakness),
                     .numbered_by_id = problem.is_tree(),
                     .young_modulus = w.young_modulus,
@@ -40,18 +40,6 @@ VesselMechanics mechanics_of(const FlowProblem& problem) {
             m.hydrostatic.acceleration.begin());
   if (problem.is_tree()) m.variation.mark_in_tree(problem.network.weakness, problem.tree.generations);
   return m;
-}
-
-GraphSolverOptions solver_options(const FlowProblem& problem) {
-  GraphSolverOptions options;
-  for (const GraphSolver solver :
-       {GraphSolver::automatic, GraphSolver::elimination, GraphSolver::ldlt,
-        GraphSolver::approximate_cholesky, GraphSolver::jacobi, GraphSolver::amg}) {
-    if (name_of(solver) == problem.network.solver) options.solver = solver;
-  }
-  options.imbalance = problem.network.imbalance;
-  options.max_iterations = problem.network.max_iterations;
-  return options;
 }
 
 std::size_t most_shown(const FlowProblem& problem) {

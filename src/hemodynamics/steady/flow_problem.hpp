@@ -22,11 +22,9 @@ struct FlowProblem {
   Parameters blood = {};
   ToSi to_si = {};                           ///< reads the units of a network's files
   std::vector<VesselFailure> failures = {};  ///< of a graph's vessels that have ruptured before
-  bool is_tree() const { return network.source == "tree"; }
+  bool is_tree() const { return network.is_tree(); }
   /// Whether a tree is held in memory as a graph.
-  bool builds_tree() const {
-    return is_tree() && (network.tier == "explicit" || network.tier == "distributed");
-  }
+  bool builds_tree() const { return is_tree() && network.resolved_tier() != network::Tier::implicit_tree; }
 };
 
 /// "tree pair of 20 generations, 2,097,150 vessels in memory", or the names of the files.
@@ -39,8 +37,6 @@ TreeBoundary driving_boundary(const FlowProblem& problem, const network::TreePai
 /// What turns pressures into strains. Weak walls of a tree are marked; of a network from files, the solver
 /// that reads them does that.
 VesselMechanics mechanics_of(const FlowProblem& problem);
-
-GraphSolverOptions solver_options(const FlowProblem& problem);
 
 /// Vessels to store and draw at most.
 std::size_t most_shown(const FlowProblem& problem);

@@ -19,16 +19,16 @@ namespace rhexis::hemodynamics {
 namespace {
 
 std::unique_ptr<FlowSolver> make_solver(const FlowProblem& problem, parallel::Communicator comm) {
-  const std::string& tier = problem.network.tier;
-  if (tier == "implicit" || (tier == "auto" && problem.is_tree())) return make_implicit_solver(problem, comm);
-  if (tier == "distributed") return make_distributed_solver(problem, comm);
+  const network::Tier tier = problem.network.resolved_tier();
+  if (tier == network::Tier::implicit_tree) return make_implicit_solver(problem, comm);
+  if (tier == network::Tier::distributed_graph) return make_distributed_solver(problem, comm);
   return make_explicit_solver(problem, comm);
 }
 
 /// Throws InputError where a rank's share of a tree's vessels cannot be numbered, or held in memory.
 /// `ranks_here`: that share the memory of this machine.
 void check_size(const FlowProblem& problem, int ranks, int ranks_here) {
-  const bool distributed = problem.network.tier == "distributed";
+  const bool distributed = problem.network.tier == network::Tier::distributed_graph;
   const double vessels = static_cast<double>(network::TreePair::vessels_of(problem.tree.generations)) /
                          (distributed ? ranks : 1);
   const MemoryLimit memory = available_memory();

@@ -214,17 +214,17 @@ void calibrate(const Parameters& p, const Lattice& lattice, BondFamilies& famili
 
 }  // namespace
 
-std::string surface_correction(const Parameters& p) {
-  if (p.surface_correction != "auto") return p.surface_correction;
-  return p.cross_section == "polar" ? "calibrated" : "none";
+SurfaceCorrection surface_correction(const Parameters& p) {
+  if (p.surface_correction != SurfaceCorrection::automatic) return p.surface_correction;
+  return p.cross_section == Arrangement::polar ? SurfaceCorrection::calibrated : SurfaceCorrection::none;
 }
 
 BondFamilies weighted_families(const Parameters& p, const Lattice& lattice) {
   BondFamilies families = find_families(lattice);
-  const std::string correction = surface_correction(p);
-  if (correction == "volume") correct_volume(lattice, families);
-  if (correction == "energy") correct_energy(lattice, families);
-  if (correction == "calibrated") calibrate(p, lattice, families);
+  const SurfaceCorrection correction = surface_correction(p);
+  if (correction == SurfaceCorrection::volume) correct_volume(lattice, families);
+  if (correction == SurfaceCorrection::energy) correct_energy(lattice, families);
+  if (correction == SurfaceCorrection::calibrated) calibrate(p, lattice, families);
   return families;
 }
 

@@ -12,7 +12,7 @@ namespace rhexis::peridynamics {
 
 /// "auto" resolved: "calibrated" on a polar cross-section, "none" on a lattice, for every law. (Calibrated
 /// weights know nothing of dilatation, but state-based walls gain by them too: see lps_lame_test.cpp.)
-std::string surface_correction(const Parameters& p);
+SurfaceCorrection surface_correction(const Parameters& p);
 
 /// Eq. (1)'s families with the weights that `p.surface_correction` asks for:
 ///

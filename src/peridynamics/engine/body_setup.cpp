@@ -15,7 +15,7 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, SharedFamilies famili
   setup.layer = make_pressure_layer(p, lattice);
   setup.lattice = std::move(lattice);
   setup.families = std::move(families);
-  setup.ends = end_condition(p);
+  setup.ends = p.ends;
   setup.end_length = *p.end_length;
   setup.density = p.density;
   setup.law = p.law;
@@ -28,7 +28,7 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, SharedFamilies famili
   const double volume = static_cast<double>(setup.lattice.particles()) * setup.lattice.volume(0);
   setup.energy_scale =
       std::max(p.young_modulus * *p.critical_stretch * *p.critical_stretch, p.pressure) * volume;
-  setup.double_bonds = p.bond_precision == "double";
+  setup.double_bonds = p.bond_precision == Precision::double_precision;
   setup.heterogeneity = Heterogeneity(p);
   setup.thin_spots = ThinSpots(p, setup.lattice, setup.layer);
   if (const auto [first, past] = free_rows(setup, 2); first == past) {

@@ -154,19 +154,16 @@ BodyMemory body_memory(const Parameters& p, const WallSize& size, double rows, b
   return {bytes, particles * 8 * real8};
 }
 
-/// Rows of the pieces that `check` makes: to be timed (of each rank), and for stability.
-constexpr double timed_rows = 64;
-
 template <class Law>
 WallMemory memory_of(const Parameters& p, const WallSize& size, const WallUse& use) {
-  const bool doubles = p.bond_precision == "double";
+  const bool doubles = p.bond_precision == Precision::double_precision;
   const double particles = size.particles();
   const double families = size.bonds * sizeof(Bond) + size.columns * (real8 + 40);  // bins, the lattice
   double wall = families * use.ranks;
   // Calibration's conditions, at first, and their dense matrix with its factors.
   const double conditions = 6 * (size.rings + 1);
   const double calibration =
-      surface_correction(p) == "calibrated"
+      surface_correction(p) == SurfaceCorrection::calibrated
           ? use.ranks * (3 * conditions * conditions * real8 +
                          size.bonds / std::max(1.0, size.columns) * size.rings * 12 * 40)
           : 0;
@@ -185,7 +182,7 @@ WallMemory memory_of(const Parameters& p, const WallSize& size, const WallUse& u
   if (p.equilibrium_pressure > 0)
     run = std::max(run, 2 * body.arrays + body.observed + particles * 9 * real8);
 
-  const double piece = std::min(size.rows, timed_rows * use.ranks);
+  const double piece = std::min(size.rows, static_cast<double>(timed_rows * use.ranks));
   const double timed = body_memory<Law>(p, size, piece, doubles, use.ranks).arrays;
   const double periodic_rows = rows_within(*p.horizon * size.rows / p.length) + 1;
   const BodyMemory stability = body_memory<Law>(p, size, periodic_rows, true, 1);
@@ -206,7 +203,7 @@ WallSize wall_size(const Parameters& p) {
   size.rows = rows;
   const FamilyCount count{.horizon = *p.horizon / *p.spacing * (1 + 1e-9),
                           .row_step = p.length / rows / *p.spacing};
-  if (p.cross_section == "polar")
+  if (p.cross_section == Arrangement::polar)
     count_polar(p, count, size);
   else
     count_lattice(p, count, size);

@@ -2,6 +2,8 @@
 /// What a wall takes in memory, by formulas: known before anything of it is made.
 #pragma once
 
+#include <cstdint>
+
 #include "peridynamics/parameters.hpp"
 
 namespace rhexis::peridynamics {
@@ -29,6 +31,9 @@ struct WallUse {
   bool doubles = false;  ///< they are written in double precision
   bool checkpoints = false;
 };
+
+/// Rows, of each rank, of the piece of the wall that `rhexis check` times.
+inline constexpr std::int64_t timed_rows = 64;
 
 /// Bytes of all ranks together, at the moment of most, without what the program and its libraries take.
 struct WallMemory {

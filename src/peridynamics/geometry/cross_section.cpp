@@ -96,7 +96,7 @@ Lattice make_lattice(const Parameters& p) {
   Lattice lattice;
   lattice.spacing = *p.spacing;
   lattice.horizon = *p.horizon;
-  lattice.section = p.cross_section == "polar"
+  lattice.section = p.cross_section == Arrangement::polar
                         ? polar_cross_section(p.inner_radius, p.outer_radius, *p.spacing)
                         : lattice_cross_section(p.inner_radius, p.outer_radius, *p.spacing,
                                                 p.lattice_shift[0], p.lattice_shift[1]);

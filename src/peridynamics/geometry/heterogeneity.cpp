@@ -22,9 +22,9 @@ Heterogeneity::Heterogeneity(const Parameters& p)
   stiffness_ = marginal(p.scatter.law, p.scatter.stiffness);
 }
 
-Heterogeneity::Marginal Heterogeneity::marginal(const std::string& law, double spread) {
+Heterogeneity::Marginal Heterogeneity::marginal(ScatterLaw law, double spread) {
   if (spread == 0) return [](double) { return 1.0; };
-  if (law == "weibull") return [w = Weibull(spread)](double z) { return w.of_normal(z); };
+  if (law == ScatterLaw::weibull) return [w = Weibull(spread)](double z) { return w.of_normal(z); };
   return [l = Lognormal(spread)](double z) { return l.of_normal(z); };
 }
 

@@ -43,7 +43,7 @@ class Heterogeneity {
  private:
   /// From a standard normal value to a factor.
   using Marginal = std::function<double(double)>;
-  static Marginal marginal(const std::string& law, double spread);
+  static Marginal marginal(ScatterLaw law, double spread);
 
   bool uniform_ = true;
   double mid_radius_ = 0;  ///< m

@@ -17,7 +17,6 @@ ParameterList declare(Scatter& s) {
       {.key = "scatter.law",
        .target = &s.law,
        .meaning = "Distribution, over the wall, of the factors of mean 1 by which properties scatter.",
-       .choices = {"lognormal", "weibull"},
        .only_with = something_scatters},
       {.key = "scatter.critical_stretch",
        .target = &s.critical_stretch,

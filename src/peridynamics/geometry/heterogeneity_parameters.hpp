@@ -12,9 +12,17 @@
 
 namespace rhexis::peridynamics {
 
+/// Distributions of mean 1.
+enum class ScatterLaw { lognormal, weibull };
+
+constexpr auto name_table(ScatterLaw) {
+  using enum ScatterLaw;
+  return std::to_array<Named<ScatterLaw>>({{lognormal, "lognormal"}, {weibull, "weibull"}});
+}
+
 /// Section [scatter]: the random part.
 struct Scatter {
-  std::string law = "lognormal";                  ///< of the factors: "lognormal" | "weibull"
+  ScatterLaw law = ScatterLaw::lognormal;         ///< of the factors
   double critical_stretch = 0;                    ///< coefficient of variation
   double stiffness = 0;                           ///< coefficient of variation
   std::optional<double> correlation_length = {};  ///< m

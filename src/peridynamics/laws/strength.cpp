@@ -11,7 +11,7 @@ namespace rhexis::peridynamics {
 
 namespace {
 
-void settle_from_rate(Parameters& p) {
+void resolve_from_rate(Parameters& p) {
   if (p.critical_stretch) {
     throw InputError("give either material.critical_stretch or material.energy_release_rate, not both",
                      "material.energy_release_rate");
@@ -37,10 +37,10 @@ void settle_from_rate(Parameters& p) {
 
 }  // namespace
 
-void settle_critical_stretch(Parameters& p) {
+void resolve_critical_stretch(Parameters& p) {
   constexpr double paper_stretch = 0.25;
   resolve(p.law);
-  if (p.energy_release_rate) settle_from_rate(p);
+  if (p.energy_release_rate) resolve_from_rate(p);
   if (!p.critical_stretch) p.critical_stretch = paper_stretch;
   check_hardening(p.law, *p.critical_stretch);
 }

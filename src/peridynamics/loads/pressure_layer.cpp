@@ -20,7 +20,7 @@ PressureLayer make_pressure_layer(const Parameters& p, const Lattice& lattice) {
     if (r < inner || r > outer) continue;
     const double depth = (r - p.inner_radius) / *p.layer_thickness;
     const double share =
-        p.layer == "nonlocal" ? std::max(0.0, 1 - depth * depth * depth * (4 - 3 * depth)) : 1.0;
+        p.layer == LayerForce::nonlocal ? std::max(0.0, 1 - depth * depth * depth * (4 - 3 * depth)) : 1.0;
     layer.bx[c] = share * s.x[c] / r;
     layer.by[c] = share * s.y[c] / r;
     resultant += share * s.area[c];
@@ -29,8 +29,8 @@ PressureLayer make_pressure_layer(const Parameters& p, const Lattice& lattice) {
     throw InputError("no particle lies in the loaded layer; make it at least one spacing thick",
                      "load.layer_thickness");
   }
-  const double magnitude =
-      p.layer == "paper" ? 1 / *p.layer_thickness : 2 * std::numbers::pi * p.inner_radius / resultant;
+  const double magnitude = p.layer == LayerForce::paper ? 1 / *p.layer_thickness
+                                                        : 2 * std::numbers::pi * p.inner_radius / resultant;
   for (std::size_t c = 0; c < s.size(); ++c) {
     layer.bx[c] *= magnitude;
     layer.by[c] *= magnitude;

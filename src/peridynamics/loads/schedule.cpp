@@ -37,13 +37,13 @@ std::optional<double> time_in(const std::vector<CurvePoint>& table, double press
 }  // namespace
 
 double schedule_share(const Parameters& p, double time_s) {
-  if (p.schedule == "step") return 1;
-  const double share = std::clamp((p.schedule_start + time_s) / *p.ramp_time, 0.0, 1.0);
-  return p.schedule == "smooth_ramp" ? 0.5 * (1 - std::cos(std::numbers::pi * share)) : share;
+  if (p.schedule == Schedule::step) return 1;
+  const double share = std::clamp((p.schedule_start + time_s) / p.ramp_time.value_or(p.end_time), 0.0, 1.0);
+  return p.schedule == Schedule::smooth_ramp ? 0.5 * (1 - std::cos(std::numbers::pi * share)) : share;
 }
 
 double scheduled_pressure(const Parameters& p, double time_s) {
-  if (p.schedule == "table") {
+  if (p.schedule == Schedule::table) {
     const double time = p.schedule_start + time_s;
     return interpolate(p.table, p.repeat ? std::fmod(time, p.table.back().first) : time);
   }
@@ -51,27 +51,28 @@ double scheduled_pressure(const Parameters& p, double time_s) {
 }
 
 double highest_pressure(const Parameters& p) {
-  if (p.schedule != "table") return p.pressure;
+  if (p.schedule != Schedule::table) return p.pressure;
   return std::ranges::max(p.table, {}, &CurvePoint::second).second;
 }
 
 std::string describe_schedule(const Parameters& p) {
-  if (p.schedule != "table") return p.schedule;
+  if (p.schedule != Schedule::table) return std::string(name_of(p.schedule));
   return "table of " + std::to_string(p.table.size()) + " points to " + quantity(p.table.back().first, "s") +
          (p.repeat ? ", repeated" : "");
 }
 
 double time_of_pressure(const Parameters& p, double pressure) {
   const InputError never("the schedule never reaches this pressure", "start.equilibrium_pressure");
-  if (p.schedule == "table") {
+  if (p.schedule == Schedule::table) {
     const std::optional<double> time = time_in(p.table, pressure);
     if (!time) throw never;
     return *time;
   }
   if (pressure > p.pressure) throw never;
-  if (p.schedule == "step") return 0;
+  if (p.schedule == Schedule::step) return 0;
   const double share = pressure / p.pressure;
-  return *p.ramp_time * (p.schedule == "smooth_ramp" ? std::acos(1 - 2 * share) / std::numbers::pi : share);
+  return *p.ramp_time *
+         (p.schedule == Schedule::smooth_ramp ? std::acos(1 - 2 * share) / std::numbers::pi : share);
 }
 
 }  // namespace rhexis::peridynamics

@@ -18,7 +18,7 @@ ThinSpots::ThinSpots(const Parameters& p, const Lattice& lattice, const Pressure
     : inner_radius_(p.inner_radius),
       outer_radius_(p.outer_radius),
       spots_(p.spots),
-      keeps_resultant_(p.layer != "paper") {
+      keeps_resultant_(p.layer != LayerForce::paper) {
   if (!spots_.thin_the_wall()) return;
   const CrossSection& s = lattice.section;
   const auto load = [&](std::size_t c) { return std::hypot(layer.bx[c], layer.by[c]) * lattice.volume(c); };

@@ -12,12 +12,11 @@
 
 namespace rhexis::peridynamics {
 
-Equilibrium start_at_equilibrium(VesselSimulation& simulation, SharedFamilies families, double time_step,
+Equilibrium start_at_equilibrium(VesselSimulation& simulation, const WallModel& wall,
                                  parallel::Communicator comm) {
-  const Parameters& v = simulation.parameters();
+  const Parameters& v = wall.parameters;
   Body& body = simulation.body();
-  Equilibrium found = find_equilibrium(make_setup(v, simulation.lattice(), std::move(families), time_step),
-                                       v.equilibrium_pressure, v.equilibrium_tolerance, comm);
+  Equilibrium found = find_equilibrium(wall.setup, v.equilibrium_pressure, v.equilibrium_tolerance, comm);
 
   std::array<std::vector<double>, 3> at_rest;
   for (std::vector<double>& component : at_rest) component.assign(found.displacement[0].size(), 0.0);

@@ -10,7 +10,7 @@ namespace rhexis::peridynamics {
 
 /// Brings the wall to rest under start.equilibrium_pressure; the work done so far is the strain energy.
 /// Collective. Throws RunError where the wall does not bear it.
-Equilibrium start_at_equilibrium(VesselSimulation& simulation, SharedFamilies families, double time_step,
+Equilibrium start_at_equilibrium(VesselSimulation& simulation, const WallModel& wall,
                                  parallel::Communicator comm);
 
 }  // namespace rhexis::peridynamics

@@ -12,18 +12,14 @@ enum Flag : std::uint64_t { broken = 1ull << 61, ruptured = 1ull << 62, unstable
 
 }  // namespace
 
-VesselSimulation::VesselSimulation(const Parameters& p, SharedFamilies families, double time_step,
-                                   parallel::Communicator comm)
-    : VesselSimulation(p, make_setup(p, make_lattice(p), std::move(families), time_step), comm) {}
-
-VesselSimulation::VesselSimulation(const Parameters& p, BodySetup setup, parallel::Communicator comm)
-    : p_(p),
-      lattice_(setup.lattice),
-      time_step_(setup.time_step),
+VesselSimulation::VesselSimulation(const WallModel& wall, parallel::Communicator comm)
+    : p_(wall.parameters),
+      lattice_(wall.lattice()),
+      time_step_(wall.time.step),
       comm_(comm),
-      particles_(lattice_.particles() - setup.thin_spots.absent()),
-      body_(make_body(setup, comm)),
-      opening_(lattice_, *body_, comm, setup.ends, setup.thin_spots),
+      particles_(wall.particles()),
+      body_(make_body(wall.setup, comm)),
+      opening_(lattice_, *body_, comm, wall.setup.ends, wall.setup.thin_spots),
       lumen_(lattice_, *body_, comm) {}
 
 double VesselSimulation::scheduled_pressure_at(long step) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The rupture of one vessel's wall in time: a body, what loads it, and what has happened to it so far.
 ///
-///     VesselSimulation simulation(parameters, families, time_step, comm);   // resolved parameters
+///     VesselSimulation simulation(*make_wall(parameters), comm);            // resolved parameters
 ///     LoadSource load;                                                      // or one that answers to the
 ///     wall load.start(simulation); while (simulation.step_number() < steps) {
 ///       load.at_moment(simulation);
@@ -20,6 +20,7 @@
 #include "peridynamics/engine/body.hpp"
 #include "peridynamics/monitors/opening.hpp"
 #include "peridynamics/simulation/load_source.hpp"
+#include "peridynamics/wall_model.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -42,9 +43,8 @@ struct LoadState {
 
 class VesselSimulation {
  public:
-  /// At rest at time 0. `p` has been resolved. Collective.
-  VesselSimulation(const Parameters& p, SharedFamilies families, double time_step,
-                   parallel::Communicator comm);
+  /// At rest at time 0. Collective.
+  VesselSimulation(const WallModel& wall, parallel::Communicator comm);
 
   const Parameters& parameters() const { return p_; }
   const Lattice& lattice() const { return lattice_; }
@@ -81,7 +81,6 @@ class VesselSimulation {
   void resume(long step, const RuptureEvents& rupture, const LoadState& load);
 
  private:
-  VesselSimulation(const Parameters& p, BodySetup setup, parallel::Communicator comm);
   Report record(bool broken, bool damaged);
 
   Parameters p_;

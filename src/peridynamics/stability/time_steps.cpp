@@ -38,9 +38,9 @@ double stable_time_step(const BodySetup& setup) {
   });
 }
 
-TimeSteps time_steps(const Parameters& p, const Lattice& lattice, SharedFamilies families) {
+TimeSteps time_steps(const Parameters& p, const BodySetup& setup) {
   TimeSteps t;
-  t.stable = stable_time_step(make_setup(p, lattice, std::move(families), 0));
+  t.stable = stable_time_step(setup);
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
   if (t.step > t.stable && !p.allow_unstable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +

@@ -21,6 +21,6 @@ double stable_time_step(const BodySetup& setup);
 
 /// The user's step, or a share of the stable one that divides the end time evenly. Throws InputError for a
 /// step that is unstable, or for far too many.
-TimeSteps time_steps(const Parameters& p, const Lattice& lattice, SharedFamilies families);
+TimeSteps time_steps(const Parameters& p, const BodySetup& setup);
 
 }  // namespace rhexis::peridynamics

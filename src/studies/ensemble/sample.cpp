@@ -5,37 +5,37 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "peridynamics/bonds/surface_correction.hpp"
 #include "peridynamics/simulation/vessel_simulation.hpp"
-#include "peridynamics/stability/time_steps.hpp"
 
 namespace rhexis::ensemble {
 
-std::optional<Sample> simulate(const Parameters& p, const peridynamics::Parameters& v, double pressure,
+std::optional<Sample> simulate(const Parameters& p, const peridynamics::WallModel& mean, double pressure,
                                std::int64_t wall, const std::function<bool()>& stop,
                                std::int64_t& bond_evaluations) {
   Sample sample;
   sample.pressure = pressure;
   sample.wall = wall;
   sample.factors = draw_wall(p, wall);
-  peridynamics::Parameters vessel = with_wall(v, sample.factors);
-  vessel.pressure = pressure;
-  vessel.scatter.seed += wall;
+  peridynamics::Parameters drawn = with_wall(mean.parameters, sample.factors);
+  drawn.pressure = pressure;
+  drawn.scatter.seed += wall;
 
-  const peridynamics::Lattice lattice = peridynamics::make_lattice(vessel);
-  const peridynamics::SharedFamilies families = peridynamics::shared_families(vessel, lattice);
-  const peridynamics::TimeSteps time = peridynamics::time_steps(vessel, lattice, families);
-  peridynamics::VesselSimulation simulation(vessel, families, time.step, parallel::Communicator::self());
+  // Families are of the geometry alone.
+  const bool same_geometry = sample.factors.thickness == 1;
+  const peridynamics::SharedWall model =
+      peridynamics::make_wall(std::move(drawn), same_geometry ? mean.setup.families : nullptr);
+  peridynamics::VesselSimulation simulation(*model, parallel::Communicator::self());
   const auto refuse = [&](long step) {
     throw RunError(fmt::format(
         "wall {} under {} (strength x {}, thickness x {}, stiffness x {}) became unstable by {}; use a "
         "smaller time.step_fraction (now {}), in another folder: samples of both steps do not mix",
         wall, mmhg(pressure), text(sample.factors.strength), text(sample.factors.thickness),
-        text(sample.factors.stiffness), quantity(simulation.time_at(step), "s"), text(vessel.step_fraction)));
+        text(sample.factors.stiffness), quantity(simulation.time_at(step), "s"),
+        text(model->parameters.step_fraction)));
   };
   peridynamics::LoadSource load;
   peridynamics::Body& body = simulation.body();
-  while (simulation.step_number() < time.count && !simulation.rupture().onset) {
+  while (simulation.step_number() < model->time.count && !simulation.rupture().onset) {
     if (stop()) return {};
     if (simulation.step(load).unstable) refuse(simulation.step_number() + 1);
   }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "peridynamics/wall_model.hpp"
 #include "studies/ensemble/walls.hpp"
 
 namespace rhexis::ensemble {
@@ -27,10 +28,10 @@ inline bool comes_before(const Sample& a, const Sample& b) {
   return a.wall != b.wall ? a.wall < b.wall : a.pressure < b.pressure;
 }
 
-/// Simulates `wall` of the mean vessel `v` (resolved) under `pressure` on this rank alone. Asks `stop` before
-/// every step and gives nothing where it says so. Adds to `bond_evaluations`. Throws RunError, which names
-/// the sample, where the vessel becomes unstable.
-std::optional<Sample> simulate(const Parameters& p, const peridynamics::Parameters& v, double pressure,
+/// Simulates wall number `wall`, drawn around the `mean` one, under `pressure` on this rank alone. Asks
+/// `stop` before every step and gives nothing where it says so. Adds to `bond_evaluations`. Throws RunError,
+/// which names the sample, where the vessel becomes unstable.
+std::optional<Sample> simulate(const Parameters& p, const peridynamics::WallModel& mean, double pressure,
                                std::int64_t wall, const std::function<bool()>& stop,
                                std::int64_t& bond_evaluations);
 

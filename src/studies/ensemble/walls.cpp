@@ -40,7 +40,7 @@ std::vector<std::string> check_walls(const Parameters& p, const peridynamics::Pa
     if (wall < 2.999 * *v.spacing) ++thin;
   }
   std::vector<std::string> warnings;
-  if (p.thickness_spread > 0 && v.cross_section == "lattice") {
+  if (p.thickness_spread > 0 && v.cross_section == peridynamics::Arrangement::lattice) {
     warnings.emplace_back(
         "on a lattice, thickness changes by whole columns, so that many walls are alike; "
         "discretisation.cross_section = \"polar\" follows it");

@@ -83,7 +83,7 @@ void write_lines(const NetworkFilesPlan& files, hemodynamics::NetworkSolution& s
   plan.version = files.version;
   plan.fields.assign(fields.begin(), fields.end());
   plan.steps = {0};
-  plan.precision = output::Precision::double_precision;
+  plan.precision = Precision::double_precision;
   plan.formats = files.formats;
   for (const std::string& name : output::series_files("network", plan.formats)) folder.claim(name);
   output::LineSeries(plan, solution.display.lines, comm).write(solution.display.lines);

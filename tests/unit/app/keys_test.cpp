@@ -174,7 +174,8 @@ TEST(Risk, IsThatOfLamesHoopStrainAtTheLumen) {
   const std::string file = (folder / "scene.toml").string();
   const auto world = parallel::Communicator::world();
   if (world.is_root()) std::ofstream(file) << vessel;
-  const peridynamics::Parameters v = read_configuration(file, {}, world).vessel;
+  const peridynamics::SharedWall wall = read_configuration(file, {}, world).wall;
+  const peridynamics::Parameters& v = wall->parameters;
   const double hoop = (2.0 * 2.0 + 1.5 * 1.5) / (2.0 * 2.0 - 1.5 * 1.5);  // over the pressure
   EXPECT_NEAR(risk_of_load(v).value(), 1e5 * (hoop + 0.25) / v.young_modulus / *v.critical_stretch, 1e-12);
 }

@@ -27,7 +27,7 @@ TEST(NetPressure, IsWhatTheHeartHasOverTheOutside) {
 TEST(Compression, ActsBetweenItsPlanes) {
   Parameters p;
   p.compression = 5000;
-  p.compression_axis = "z";
+  p.compression_axis = Axis::z;
   EXPECT_EQ(compression(p).at({9, 9, -1e3}), 5000);  // everywhere
   p.compression_from = -0.1;
   p.compression_to = 0.2;

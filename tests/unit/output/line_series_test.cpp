@@ -39,7 +39,7 @@ void expect_step(const std::filesystem::path& path, std::int64_t lines, long ste
 }
 
 TEST(LineSeries, HoldsEveryValueAndGlobalLinesThoughARankHasNone) {
-  for (const auto precision : {output::Precision::single_precision, output::Precision::double_precision}) {
+  for (const auto precision : {Precision::single_precision, Precision::double_precision}) {
     const TemporaryDirectory directory;
     SyntheticLines source(37, world, 0);
     LineSeriesPlan plan = plan_in(directory.path(), {0, 50});

@@ -47,7 +47,7 @@ std::vector<int> column_divisions() {
 }
 
 TEST(PointSeries, HoldsEveryValueHoweverTheBodyIsDivided) {
-  for (const auto precision : {output::Precision::single_precision, output::Precision::double_precision}) {
+  for (const auto precision : {Precision::single_precision, Precision::double_precision}) {
     for (const int parts : column_divisions()) {
       const TemporaryDirectory directory;
       SyntheticSource source(test::divided(9, 17, world, parts), 0);

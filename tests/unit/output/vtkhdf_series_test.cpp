@@ -66,7 +66,7 @@ std::int64_t listed_steps(const std::filesystem::path& path) {
 }
 
 TEST(VtkHdfSeries, HoldsEveryValueOfPointsThatMove) {
-  for (const auto precision : {output::Precision::single_precision, output::Precision::double_precision}) {
+  for (const auto precision : {Precision::single_precision, Precision::double_precision}) {
     const TemporaryDirectory directory;
     SyntheticSource source(test::divided(9, 17, world, world.size() == 4 ? 2 : 1), 0);
     output::SeriesPlan plan = plan_in(directory.path(), SyntheticSource::infos);

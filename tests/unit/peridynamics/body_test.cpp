@@ -11,16 +11,16 @@
 namespace rhexis::peridynamics {
 namespace {
 
-class Precision : public testing::TestWithParam<bool> {
+class InPrecision : public testing::TestWithParam<bool> {
  protected:
   bool doubles() const { return GetParam(); }
 };
-INSTANTIATE_TEST_SUITE_P(Bonds, Precision, testing::Values(false, true),
+INSTANTIATE_TEST_SUITE_P(Bonds, InPrecision, testing::Values(false, true),
                          [](const auto& i) { return i.param ? "double" : "single"; });
 
 using State = std::array<std::vector<double>, 3>;
 
-TEST_P(Precision, PairBreaksAtTheCriticalStretchAtBothEndsAtOnce) {
+TEST_P(InPrecision, PairBreaksAtTheCriticalStretchAtBothEndsAtOnce) {
   const double margin = doubles() ? 1e-14 : 2e-7;
   for (double away : {-margin, margin}) {
     const auto body = make_body(test::two_particles(doubles(), 0.25, 1e-3), test::self());
@@ -38,7 +38,7 @@ TEST_P(Precision, PairBreaksAtTheCriticalStretchAtBothEndsAtOnce) {
   }
 }
 
-TEST_P(Precision, PairOscillatesAtItsFrequencyToSecondOrder) {
+TEST_P(InPrecision, PairOscillatesAtItsFrequencyToSecondOrder) {
   // Relative motion of the pair: r'' = -2 c s, so s = s0 cos(sqrt(2) t) along the bond.
   const auto error = [&](double dt) {
     const auto body = make_body(test::two_particles(doubles(), 0.25, dt), test::self());
@@ -54,10 +54,10 @@ TEST_P(Precision, PairOscillatesAtItsFrequencyToSecondOrder) {
   EXPECT_NEAR(coarse / fine, 4, 0.1);
 }
 
-TEST_P(Precision, RigidMotionsMakeNoForce) {
+TEST_P(InPrecision, RigidMotionsMakeNoForce) {
   Parameters p = test::paper_vessel(1e-3);
-  p.bond_precision = doubles() ? "double" : "single";
-  p.ends = "free";
+  p.bond_precision = doubles() ? Precision::double_precision : Precision::single_precision;
+  p.ends = EndCondition::free;
   const BodySetup setup = test::setup_of(p, 1e-7);
   // A bond stretched by one per cent has this force density on one particle.
   const double scale = setup.bond_constant * 0.01 * std::pow(setup.lattice.spacing, 3);
@@ -97,11 +97,11 @@ TEST_P(Precision, RigidMotionsMakeNoForce) {
   EXPECT_LT(largest_force(rotation(2.5, 1.5)), tolerance);
 }
 
-TEST_P(Precision, MomentumIsConserved) {
+TEST_P(InPrecision, MomentumIsConserved) {
   Parameters p = test::paper_vessel(1e-3);
-  p.cross_section = "polar";  // unequal volumes
-  p.bond_precision = doubles() ? "double" : "single";
-  p.ends = "free";
+  p.cross_section = Arrangement::polar;  // unequal volumes
+  p.bond_precision = doubles() ? Precision::double_precision : Precision::single_precision;
+  p.ends = EndCondition::free;
   p.critical_stretch = 0.05;
   const BodySetup setup = test::setup_of(p, 1e-7);
   const auto body = make_body(BodySetup(setup), test::self());
@@ -127,10 +127,10 @@ TEST_P(Precision, MomentumIsConserved) {
   EXPECT_NEAR(moment, 0, tolerance * 2e-3);
 }
 
-TEST_P(Precision, EnergyIsConservedWhileItVibrates) {
+TEST_P(InPrecision, EnergyIsConservedWhileItVibrates) {
   Parameters p = test::paper_vessel(5e-4);
-  p.bond_precision = doubles() ? "double" : "single";
-  p.ends = "free";
+  p.bond_precision = doubles() ? Precision::double_precision : Precision::single_precision;
+  p.ends = EndCondition::free;
   BodySetup setup = test::setup_of(p, 1e-7);
   setup.time_step = 0.03 * test::stable_step_of(setup);
   const auto body = make_body(std::move(setup), test::self());
@@ -149,9 +149,9 @@ TEST_P(Precision, EnergyIsConservedWhileItVibrates) {
   EXPECT_NEAR((end.kinetic + end.strain) / start, 1, 1e-4);
 }
 
-TEST_P(Precision, WorkOfThePressureBecomesEnergy) {
+TEST_P(InPrecision, WorkOfThePressureBecomesEnergy) {
   Parameters p = test::paper_vessel(1e-3);
-  p.bond_precision = doubles() ? "double" : "single";
+  p.bond_precision = doubles() ? Precision::double_precision : Precision::single_precision;
   BodySetup setup = test::setup_of(p, 1e-7);
   setup.time_step = 0.03 * test::stable_step_of(setup);
   const auto body = make_body(std::move(setup), test::self());
@@ -162,13 +162,13 @@ TEST_P(Precision, WorkOfThePressureBecomesEnergy) {
   EXPECT_NEAR((t.kinetic + t.strain) / t.external_work, 1, 1e-4);
 }
 
-TEST_P(Precision, UniformStrainHasTheContinuumEnergy) {
+TEST_P(InPrecision, UniformStrainHasTheContinuumEnergy) {
   // Bulk particles under a volume strain e store 9 K e^2 / 2 (Silling & Askari); the sum over a family of 178
   // is close to the integral.
   Parameters p = test::paper_vessel(2e-3);
   p.inner_radius = 1e-6;
-  p.bond_precision = doubles() ? "double" : "single";
-  p.ends = "free";
+  p.bond_precision = doubles() ? Precision::double_precision : Precision::single_precision;
+  p.ends = EndCondition::free;
   const auto body = make_body(test::setup_of(p, 1e-7), test::self());
   const double e = 1e-3;
   body->set_state(test::sample(*body,
@@ -183,11 +183,11 @@ TEST_P(Precision, UniformStrainHasTheContinuumEnergy) {
   EXPECT_NEAR(largest / (4.5 * bulk * e * e), 1, 0.05);
 }
 
-TEST_P(Precision, HalvedBodyHasTheDamageOfItsCut) {
+TEST_P(InPrecision, HalvedBodyHasTheDamageOfItsCut) {
   // Pull the halves above and below a plane apart: damage of a particle is the share of its family beyond.
   Parameters p = test::paper_vessel(2e-3);
-  p.bond_precision = doubles() ? "double" : "single";
-  p.ends = "free";
+  p.bond_precision = doubles() ? Precision::double_precision : Precision::single_precision;
+  p.ends = EndCondition::free;
   const BodySetup setup = test::setup_of(p, 1e-7);
   const auto body = make_body(BodySetup(setup), test::self());
   body->set_state(test::sample(*body,
@@ -219,7 +219,7 @@ TEST_P(Precision, HalvedBodyHasTheDamageOfItsCut) {
 TEST(Body, HeldEndsStayAndSlidingEndsSlide) {
   for (const char* ends : {"clamped", "sliding", "free"}) {
     Parameters p = test::paper_vessel(2e-3);
-    p.ends = ends;
+    p.ends = value_of<EndCondition>(ends).value();
     const auto body = make_body(test::setup_of(p, 5e-7), test::self());
     for (int i = 0; i < 100; ++i) body->advance(20e3, 20e3);
     const auto u = body->displacement();
@@ -240,7 +240,7 @@ TEST(Body, HeldEndsStayAndSlidingEndsSlide) {
 
 TEST(Body, TooLargeAStepIsNoticed) {
   Parameters p = test::paper_vessel(1e-3);
-  p.ends = "free";
+  p.ends = EndCondition::free;
   BodySetup setup = test::setup_of(p, 1e-7);
   setup.time_step = 4 * test::stable_step_of(setup);
   const auto body = make_body(std::move(setup), test::self());
@@ -251,7 +251,7 @@ TEST(Body, TooLargeAStepIsNoticed) {
 
 TEST(Body, PeriodicVesselDoesNotKnowWhereItIsCut) {
   Parameters p = test::paper_vessel(2e-3);
-  p.ends = "axial_periodic";
+  p.ends = EndCondition::axial_periodic;
   const auto body = make_body(test::setup_of(p, 5e-7), test::self());
   for (int i = 0; i < 50; ++i) body->advance(20e3, 20e3);
   const auto u = body->displacement();
@@ -264,7 +264,7 @@ TEST(Body, PeriodicVesselDoesNotKnowWhereItIsCut) {
 TEST(Body, ObservingChangesNothing) {
   for (const char* law : {"pmb", "lps"}) {
     Parameters p = test::paper_vessel(1e-3);
-    p.ends = "free";
+    p.ends = EndCondition::free;
     p.critical_stretch = 0.05;
     p.law.name = law;
     const BodySetup setup = test::setup_of(p, 1e-7);
@@ -295,7 +295,7 @@ TEST(Body, ObservingChangesNothing) {
 TEST(Body, RestoredBodyGoesOnBitByBit) {
   // In flight, so that the frame of the single-precision copy must follow it.
   Parameters p = test::paper_vessel(1e-3);
-  p.ends = "free";
+  p.ends = EndCondition::free;
   p.critical_stretch = 0.05;
   const BodySetup setup = test::setup_of(p, 5e-7);
   const auto run = [](Body& body, int from, int to) {

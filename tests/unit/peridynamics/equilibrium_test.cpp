@@ -16,10 +16,10 @@ class Equilibria : public testing::TestWithParam<const char*> {
     Parameters p = test::paper_vessel(1.6e-3);
     p.spacing = 1.6e-4;
     p.horizon = 4e-4;
-    p.cross_section = "polar";
-    p.ends = GetParam();
-    p.layer = "consistent";
-    p.bond_precision = "double";
+    p.cross_section = Arrangement::polar;
+    p.ends = value_of<EndCondition>(GetParam()).value();
+    p.layer = LayerForce::consistent;
+    p.bond_precision = Precision::double_precision;
     return test::setup_of(p, 1e-7);
   }
 };
@@ -74,7 +74,7 @@ TEST_P(Equilibria, AWallSetIntoOneStaysThere) {
 
 TEST(Equilibrium, FailsWhereItIsNotReached) {
   Parameters p = test::paper_vessel(1e-3);
-  p.ends = "axial_periodic";
+  p.ends = EndCondition::axial_periodic;
   EXPECT_THROW(find_equilibrium(test::setup_of(p, 1e-7), 1e3, 1e-4, test::self(), 10), RunError);
 }
 

@@ -14,10 +14,10 @@
 namespace rhexis::peridynamics {
 namespace {
 
-Parameters scattered(double critical_stretch, double stiffness, const char* law = "lognormal") {
+Parameters scattered(double critical_stretch, double stiffness, ScatterLaw law = ScatterLaw::lognormal) {
   Parameters p = test::paper_vessel(2e-3);
-  p.ends = "free";
-  p.bond_precision = "double";
+  p.ends = EndCondition::free;
+  p.bond_precision = Precision::double_precision;
   p.step_fraction = 0.65;
   p.scatter = {.law = law, .critical_stretch = critical_stretch, .stiffness = stiffness};
   return p;
@@ -30,7 +30,7 @@ LocalFactors factors_at(const Heterogeneity& wall, const std::array<double, 3>& 
 
 TEST(Heterogeneity, FactorsHaveMeanOneAndTheirSpreads) {
   constexpr int seeds = 20000;
-  for (const char* law : {"lognormal", "weibull"}) {
+  for (const auto law : {ScatterLaw::lognormal, ScatterLaw::weibull}) {
     Parameters p = scattered(0.1, 0.3, law);
     resolve(p);
     std::array<double, 2> mean{}, square{};
@@ -45,8 +45,8 @@ TEST(Heterogeneity, FactorsHaveMeanOneAndTheirSpreads) {
     }
     const std::array spread{0.1, 0.3};
     for (std::size_t k = 0; k < 2; ++k) {
-      EXPECT_NEAR(mean[k], 1, 5 * spread[k] / std::sqrt(seeds)) << law;
-      EXPECT_NEAR(std::sqrt(square[k] - mean[k] * mean[k]) / spread[k], 1, 0.05) << law;
+      EXPECT_NEAR(mean[k], 1, 5 * spread[k] / std::sqrt(seeds)) << name_of(law);
+      EXPECT_NEAR(std::sqrt(square[k] - mean[k] * mean[k]) / spread[k], 1, 0.05) << name_of(law);
     }
   }
 }
@@ -55,7 +55,7 @@ TEST(Heterogeneity, LawsHaveTheirOwnTails) {
   // Weakest of 1000 places: a Weibull wall of the same spread is weaker there than a lognormal one.
   std::array<double, 2> weakest{1, 1};
   for (std::size_t k = 0; k < 2; ++k) {
-    Parameters p = scattered(0.1, 0, k == 0 ? "lognormal" : "weibull");
+    Parameters p = scattered(0.1, 0, k == 0 ? ScatterLaw::lognormal : ScatterLaw::weibull);
     resolve(p);
     for (p.scatter.seed = 0; p.scatter.seed < 1000; ++p.scatter.seed)
       weakest[k] = std::min(weakest[k], factors_at(Heterogeneity(p), {0, 0, 0}).critical_stretch);
@@ -160,7 +160,7 @@ TEST(HeterogeneousBody, EachBondBreaksAtItsOwnStretchAndTakesItsOwnEnergy) {
 
 TEST(HeterogeneousBody, MomentumIsConserved) {
   Parameters p = scattered(0.1, 0.3);
-  p.cross_section = "polar";  // unequal volumes
+  p.cross_section = Arrangement::polar;  // unequal volumes
   p.critical_stretch = 0.05;
   const Pulled pulled(p);
   EXPECT_GT(pulled.body->totals().broken_bonds, 0);
@@ -174,9 +174,9 @@ TEST(HeterogeneousBody, MomentumIsConserved) {
 }
 
 TEST(HeterogeneousBody, EnergyBalancesThroughRupture) {
-  Parameters p = scattered(0.1, 0.1, "weibull");
+  Parameters p = scattered(0.1, 0.1, ScatterLaw::weibull);
   p.length = 1e-3;
-  p.bond_precision = "single";
+  p.bond_precision = Precision::single_precision;
   p.critical_stretch = 0.05;
   BodySetup setup = test::setup_of(p, 1e-7);
   setup.time_step = 0.1 * test::stable_step_of(setup);
@@ -204,7 +204,8 @@ TEST(HeterogeneousBody, StableStepIsThatOfTheStiffestPlace) {
     for (const LocalFactors& f : column) largest = std::max(largest, f.stiffness);
   }
   EXPECT_GT(largest, 1.5);
-  EXPECT_NEAR(time_steps(uniform, lattice, families).stable / time_steps(stiff, lattice, families).stable,
+  EXPECT_NEAR(stable_time_step(make_setup(uniform, lattice, families, 0)) /
+                  stable_time_step(make_setup(stiff, lattice, families, 0)),
               std::sqrt(largest), 1e-12);
 }
 

@@ -34,7 +34,7 @@ TEST(CrossSection, PolarFillsTheWallExactly) {
 TEST(CrossSection, SpacingFromParticleNumberGivesAboutThatMany) {
   for (const char* kind : {"lattice", "polar"}) {
     Parameters p = test::paper_vessel(10e-3);
-    p.cross_section = kind;
+    p.cross_section = value_of<Arrangement>(kind).value();
     p.spacing.reset();
     p.particles = 55000;
     p.horizon.reset();
@@ -67,7 +67,7 @@ TEST(BondFamilies, BulkParticleHas178Neighbours) {
 TEST(BondFamilies, EveryBondHasItsExactOpposite) {
   for (const char* kind : {"lattice", "polar"}) {
     Parameters p = test::paper_vessel();
-    p.cross_section = kind;
+    p.cross_section = value_of<Arrangement>(kind).value();
     resolve(p);
     const Lattice lattice = make_lattice(p);
     const BondFamilies f = find_families(lattice);
@@ -170,15 +170,15 @@ TEST(Parameters, InconsistentValuesNameTheirKey) {
             }),
             "discretisation.spacing");
   EXPECT_EQ(key_of([](Parameters& p) { p.lattice_shift = {0.5}; }), "discretisation.lattice_shift");
-  EXPECT_EQ(key_of([](Parameters& p) { p.schedule = "table"; }), "load.table");
+  EXPECT_EQ(key_of([](Parameters& p) { p.schedule = Schedule::table; }), "load.table");
   EXPECT_EQ(key_of([](Parameters& p) { p.table = {{0, 0}, {1, 1}}; }), "load.table");
   EXPECT_EQ(key_of([](Parameters& p) {
-              p.schedule = "table";
+              p.schedule = Schedule::table;
               p.table = {{0, 0}, {0, 1}};
             }),
             "load.table");
   EXPECT_EQ(key_of([](Parameters& p) {
-              p.ends = "axial_periodic";
+              p.ends = EndCondition::axial_periodic;
               p.length = 6e-4;
             }),
             "vessel.length");
@@ -190,7 +190,7 @@ TEST(Parameters, ThinWallIsWarnedOf) {
   p = test::paper_vessel();
   p.spacing = 2e-4;
   p.horizon = 7e-4;
-  p.layer = "consistent";
+  p.layer = LayerForce::consistent;
   EXPECT_EQ(resolve(p).size(), 1u);
 }
 

@@ -29,8 +29,8 @@ TEST(PressureLayer, ResultantIsExact) {
     for (const char* kind : {"lattice", "polar"}) {
       for (double thickness : {1e-4, 3.5e-4}) {
         Parameters p = test::paper_vessel();
-        p.cross_section = kind;
-        p.layer = layer;
+        p.cross_section = value_of<Arrangement>(kind).value();
+        p.layer = value_of<LayerForce>(layer).value();
         p.layer_thickness = thickness;
         resolve(p);
         EXPECT_NEAR(relative_resultant(p), 1, 1e-13) << layer << ' ' << kind << ' ' << thickness;
@@ -52,8 +52,8 @@ TEST(PressureLayer, NonlocalLayerIsThePullOfTheBondsThatASurfaceCuts) {
     return sum;
   };
   Parameters p = test::paper_vessel();
-  p.cross_section = "polar";
-  p.layer = "nonlocal";
+  p.cross_section = Arrangement::polar;
+  p.layer = LayerForce::nonlocal;
   resolve(p);
   const Lattice lattice = make_lattice(p);
   const PressureLayer layer = make_pressure_layer(p, lattice);
@@ -70,7 +70,7 @@ TEST(PressureLayer, PaperResultantIsTooLarge) {
   // Inside the wall Eq. (8) loads the area between r0 and r0 + delta: (1 + delta / (2 r0)) of the lumen's
   // surface.
   Parameters p = test::paper_vessel();
-  p.cross_section = "polar";
+  p.cross_section = Arrangement::polar;
   p.spacing = 0.25e-4;  // fine rings, whose areas fill the layer exactly
   p.horizon = 1e-4;
   p.layer_thickness = 3.5e-4;
@@ -99,18 +99,18 @@ TEST(Schedule, Shapes) {
   p.pressure = 100;
   p.ramp_time = 2.0;
   resolve(p);
-  p.schedule = "step";
+  p.schedule = Schedule::step;
   EXPECT_EQ(scheduled_pressure(p, 0), 100);
-  p.schedule = "ramp";
+  p.schedule = Schedule::ramp;
   EXPECT_EQ(scheduled_pressure(p, 0), 0);
   EXPECT_EQ(scheduled_pressure(p, 0.5), 25);
   EXPECT_EQ(scheduled_pressure(p, 3), 100);
-  p.schedule = "smooth_ramp";
+  p.schedule = Schedule::smooth_ramp;
   EXPECT_EQ(scheduled_pressure(p, 0), 0);
   EXPECT_NEAR(scheduled_pressure(p, 0.5), 100 * (1 - std::sqrt(0.5)) / 2, 1e-12);
   EXPECT_NEAR(scheduled_pressure(p, 1), 50, 1e-12);
   EXPECT_EQ(scheduled_pressure(p, 3), 100);
-  p.schedule = "table";
+  p.schedule = Schedule::table;
   p.table = {{1, 10}, {2, 30}, {4, 0}};
   EXPECT_EQ(scheduled_pressure(p, 0), 10);
   EXPECT_EQ(scheduled_pressure(p, 1.5), 20);
@@ -125,7 +125,7 @@ TEST(Schedule, StartsWhereItFirstHasAPressure) {
   p.ramp_time = 2.0;
   resolve(p);
   const auto starts_with = [&](const char* schedule, double pressure) {
-    p.schedule = schedule;
+    p.schedule = value_of<Schedule>(schedule).value();
     p.schedule_start = time_of_pressure(p, pressure);
     EXPECT_NEAR(scheduled_pressure(p, 0), pressure, 1e-10) << schedule;
     return p.schedule_start;
@@ -142,10 +142,10 @@ TEST(Schedule, StartsWhereItFirstHasAPressure) {
   EXPECT_THROW(time_of_pressure(p, 4), InputError);
   EXPECT_THROW(time_of_pressure(p, 61), InputError);
   EXPECT_EQ(highest_pressure(p), 60);
-  p.schedule = "ramp";
+  p.schedule = Schedule::ramp;
   EXPECT_THROW(time_of_pressure(p, 101), InputError);
   EXPECT_EQ(highest_pressure(p), 100);
-  p.schedule = "step";
+  p.schedule = Schedule::step;
   EXPECT_EQ(time_of_pressure(p, 40), 0);
 }
 
@@ -154,11 +154,11 @@ INSTANTIATE_TEST_SUITE_P(CrossSections, Opening, testing::Values("lattice", "pol
 
 TEST_P(Opening, IntactAndUniformlyWidenedWallsAreClosed) {
   Parameters p = test::paper_vessel();
-  p.cross_section = GetParam();
+  p.cross_section = value_of<Arrangement>(GetParam()).value();
   BodySetup setup = test::setup_of(p, 1e-7);
   const Lattice lattice = setup.lattice;
   const auto body = make_body(std::move(setup), test::self());
-  const OpeningGauge gauge(lattice, *body, test::self(), end_condition(p));
+  const OpeningGauge gauge(lattice, *body, test::self(), p.ends);
   EXPECT_EQ(gauge.area(), 0);
   body->set_state(test::sample(*body,
                                [](auto x) {
@@ -172,8 +172,8 @@ TEST(Opening, IntactWallsOfAnyFinenessAreClosed) {
   // Rings of 100 to 1200 columns: whatever the bins, the gaps of the reference state do not count.
   for (double spacing = 1e-4; spacing > 9e-6; spacing *= 0.87) {
     Parameters p = test::paper_vessel(3 * spacing);
-    p.cross_section = "polar";
-    p.ends = "free";
+    p.cross_section = Arrangement::polar;
+    p.ends = EndCondition::free;
     p.outer_radius = p.inner_radius + 4 * spacing;
     p.spacing = spacing;
     p.horizon = 2.01 * spacing;
@@ -188,11 +188,11 @@ TEST(Opening, IntactWallsOfAnyFinenessAreClosed) {
 TEST_P(Opening, KnownSlitIsMeasured) {
   // The wall is cut along the negative x axis over its middle third and bent open to a gap of known angle.
   Parameters p = test::paper_vessel(3e-3);
-  p.cross_section = GetParam();
+  p.cross_section = value_of<Arrangement>(GetParam()).value();
   BodySetup setup = test::setup_of(p, 1e-7);
   const Lattice lattice = setup.lattice;
   const auto body = make_body(std::move(setup), test::self());
-  const OpeningGauge gauge(lattice, *body, test::self(), end_condition(p));
+  const OpeningGauge gauge(lattice, *body, test::self(), p.ends);
   const double mid_radius = 1.75e-3, slit_length = 1e-3;
   for (double half_angle : {0.1, 0.3, 0.6}) {
     const auto bent = [&](std::array<double, 3> x) -> std::array<double, 3> {
@@ -211,11 +211,11 @@ TEST_P(Opening, KnownSlitIsMeasured) {
 TEST_P(Opening, KnownTearAcrossTheAxisIsMeasured) {
   // Above its middle, all of the wall or the half of it at positive x is moved up.
   Parameters p = test::paper_vessel(3e-3);
-  p.cross_section = GetParam();
+  p.cross_section = value_of<Arrangement>(GetParam()).value();
   BodySetup setup = test::setup_of(p, 1e-7);
   const Lattice lattice = setup.lattice;
   const auto body = make_body(std::move(setup), test::self());
-  const OpeningGauge gauge(lattice, *body, test::self(), end_condition(p));
+  const OpeningGauge gauge(lattice, *body, test::self(), p.ends);
   double mean_radius = 0;
   for (std::size_t c = 0; c < lattice.section.size(); ++c)
     mean_radius +=
@@ -236,12 +236,12 @@ TEST_P(Opening, KnownTearAcrossTheAxisIsMeasured) {
 
 TEST_P(Opening, TearAtTheSeamOfPeriodicEndsCountsAsAnyOther) {
   Parameters p = test::paper_vessel(3e-3);
-  p.cross_section = GetParam();
-  p.ends = "axial_periodic";
+  p.cross_section = value_of<Arrangement>(GetParam()).value();
+  p.ends = EndCondition::axial_periodic;
   BodySetup setup = test::setup_of(p, 1e-7);
   const Lattice lattice = setup.lattice;
   const auto body = make_body(std::move(setup), test::self());
-  const OpeningGauge gauge(lattice, *body, test::self(), end_condition(p));
+  const OpeningGauge gauge(lattice, *body, test::self(), p.ends);
   EXPECT_EQ(gauge.area(), 0);
   // Squeezed to half its length the piece gapes at the seam; the same towards the seam, in its middle.
   const auto area = [&](double towards) {
@@ -267,7 +267,7 @@ TEST(Venting, ClosedForms) {
 TEST(LumenGauge, ResistanceAndStretchOfAWidenedVessel) {
   for (const char* kind : {"lattice", "polar"}) {
     Parameters p = test::paper_vessel();
-    p.cross_section = kind;
+    p.cross_section = value_of<Arrangement>(kind).value();
     const BodySetup setup = test::setup_of(p, 1e-7);
     const Lattice lattice = setup.lattice;
     const auto body = make_body(setup, test::self());
@@ -290,7 +290,7 @@ TEST(LumenGauge, ResistanceAndStretchOfAWidenedVessel) {
 
 TEST(AxialProfile, ScalesTheLoadRowByRow) {
   Parameters p = test::paper_vessel();
-  p.ends = "free";
+  p.ends = EndCondition::free;
   const BodySetup setup = test::setup_of(p, 1e-7);
   const auto body = make_body(setup, test::self());
   const auto rows = static_cast<std::size_t>(setup.lattice.rows);

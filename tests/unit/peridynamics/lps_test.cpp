@@ -14,8 +14,8 @@ Parameters solid_of(double poisson_ratio) {
   Parameters p = test::paper_vessel(1e-3);
   p.law.name = "lps";
   p.law.poisson_ratio = poisson_ratio;
-  p.ends = "free";
-  p.bond_precision = "double";
+  p.ends = EndCondition::free;
+  p.bond_precision = Precision::double_precision;
   return p;
 }
 
@@ -105,7 +105,7 @@ TEST(Lps, IsPmbToTheLastBitAtOneQuarter) {
     for (std::size_t i = 0; i < 2; ++i) {
       Parameters p = solid_of(0.25);
       p.law.name = i == 0 ? "pmb" : "lps";
-      p.bond_precision = precision;
+      p.bond_precision = value_of<Precision>(precision).value();
       p.critical_stretch = 0.1;
       BodySetup setup = test::setup_of(p, 1e-6);
       // c is the same number by another formula; only its last digits differ.
@@ -169,8 +169,8 @@ TEST(Lps, StableStepIsSafeAndNotWasteful) {
   for (const char* ends : {"free", "axial_periodic"}) {
     for (double nu : {0.25, 0.49}) {
       Parameters p = solid_of(nu);
-      p.ends = ends;
-      p.cross_section = "polar";
+      p.ends = value_of<EndCondition>(ends).value();
+      p.cross_section = Arrangement::polar;
       resolve(p);
       const Lattice lattice = make_lattice(p);
       const double bound = stable_time_step(make_setup(p, lattice, shared_families(p, lattice), 0)),

@@ -93,9 +93,9 @@ INSTANTIATE_TEST_SUITE_P(Materials, EachLaw, testing::Values("pmb", "fung", "lps
 
 TEST_P(EachLaw, ActionIsReaction) {
   Parameters p = vessel_of(GetParam());
-  p.cross_section = "polar";  // unequal volumes
-  p.bond_precision = "double";
-  p.ends = "free";
+  p.cross_section = Arrangement::polar;  // unequal volumes
+  p.bond_precision = Precision::double_precision;
+  p.ends = EndCondition::free;
   p.critical_stretch = 0.05;
   const BodySetup setup = test::setup_of(p, 1e-7);
   const auto body = make_body(BodySetup(setup), test::self());
@@ -117,8 +117,8 @@ TEST_P(EachLaw, ActionIsReaction) {
 
 TEST_P(EachLaw, PiecesPullAsTheyDoHoweverFarApart) {
   Parameters p = vessel_of(GetParam());
-  p.bond_precision = "double";
-  p.ends = "free";
+  p.bond_precision = Precision::double_precision;
+  p.ends = EndCondition::free;
   const BodySetup setup = test::setup_of(p, 1e-7);
   const double h = setup.lattice.spacing;
   const auto forces = [&](double away, bool wrapped) {
@@ -168,7 +168,7 @@ TEST_P(EachLaw, RestoredBodyGoesOnBitByBit) {
 TEST_P(EachLaw, EnergyBalancesThroughRupture) {
   Parameters p = vessel_of(GetParam());
   p.critical_stretch = 0.1;
-  p.ends = "free";
+  p.ends = EndCondition::free;
   BodySetup setup = test::setup_of(p, 0.1 * stable_step(p));
   const auto body = make_body(std::move(setup), test::self());
   Totals t;

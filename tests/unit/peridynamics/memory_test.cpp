@@ -31,7 +31,7 @@ Made made(const Parameters& p) {
 
 Parameters vessel(const char* cross_section, double spacing, double ratio) {
   Parameters p = test::paper_vessel();
-  p.cross_section = cross_section;
+  p.cross_section = value_of<Arrangement>(cross_section).value();
   p.spacing = spacing;
   p.horizon = {};
   p.horizon_ratio = ratio;

@@ -33,7 +33,7 @@ std::string error_of(const std::string& text) {
 /// A triangle of period 4 s that rises from 10 Pa to 30 Pa in 1 s.
 Parameters triangle() {
   Parameters p = test::paper_vessel();
-  p.schedule = "table";
+  p.schedule = Schedule::table;
   p.table = {{0, 10}, {1, 30}, {4, 10}};
   return p;
 }

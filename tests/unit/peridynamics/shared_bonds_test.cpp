@@ -29,9 +29,9 @@ class Threads : public testing::TestWithParam<std::tuple<int, const char*, const
       p.inner_radius = 1e-6;
       p.outer_radius = 3e-4;
     } else {
-      p.cross_section = "polar";  // unequal volumes
+      p.cross_section = Arrangement::polar;  // unequal volumes
     }
-    p.ends = std::get<1>(GetParam());
+    p.ends = value_of<EndCondition>(std::get<1>(GetParam())).value();
     p.critical_stretch = 0.05;
     p.law.name = law;
     return test::setup_of(p, 1e-7);

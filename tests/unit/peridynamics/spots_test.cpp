@@ -17,8 +17,8 @@ constexpr double mid_radius = 1.75e-3;  // of the paper's wall
 /// The paper's vessel with one spot at 2 mm, on the far side from the x axis.
 Parameters spotted(double critical_stretch, double stiffness, double thickness) {
   Parameters p = test::paper_vessel(4e-3);
-  p.layer = "consistent";
-  p.ends = "axial_periodic";
+  p.layer = LayerForce::consistent;
+  p.ends = EndCondition::axial_periodic;
   p.critical_stretch = 0.1;
   p.spots.list = {{.position = 2e-3,
                    .angle = std::numbers::pi,
@@ -89,10 +89,10 @@ TEST(Spots, ReachAcrossTheSeamOfPeriodicEnds) {
   p.spots.list[0].position = 0.1e-3;
   resolve(p);
   const double angle = std::numbers::pi;
-  EXPECT_NEAR(p.spots.nearness(p.spots.list[0], mid_radius, angle, 3.8e-3), p.spots.nearness(p.spots.list[0], mid_radius, angle, 0.4e-3),
-              1e-12);
+  EXPECT_NEAR(p.spots.nearness(p.spots.list[0], mid_radius, angle, 3.8e-3),
+              p.spots.nearness(p.spots.list[0], mid_radius, angle, 0.4e-3), 1e-12);
   EXPECT_GT(p.spots.nearness(p.spots.list[0], mid_radius, angle, 3.8e-3), 0.7);
-  p.ends = "free";
+  p.ends = EndCondition::free;
   resolve(p);
   EXPECT_EQ(p.spots.nearness(p.spots.list[0], mid_radius, angle, 3.8e-3), 0);
 }
@@ -101,7 +101,7 @@ class ThinSpot : public testing::TestWithParam<const char*> {
  protected:
   Parameters parameters(double thickness) const {
     Parameters p = spotted(1, 1, thickness);
-    p.cross_section = GetParam();
+    p.cross_section = value_of<Arrangement>(GetParam()).value();
     return p;
   }
 };
@@ -210,7 +210,7 @@ TEST(Spots, RefusesWhatIsNoSpot) {
   far.spots.list[0].position = 4.1e-3;
   EXPECT_EQ(key(far), "spot[1].position");
   Parameters unloaded = spotted(1, 1, 0.5);
-  unloaded.layer = "paper";
+  unloaded.layer = LayerForce::paper;
   EXPECT_EQ(resolve(unloaded).size(), 1U);
   Parameters small = spotted(0.5, 1, 1);
   small.spots.list[0].radius = 1.9e-4;

@@ -16,8 +16,8 @@ namespace {
 
 Parameters vessel(const std::string& cross_section, const std::string& correction, double rotation = 0) {
   Parameters p = test::paper_vessel(2e-3);
-  p.cross_section = cross_section;
-  p.surface_correction = correction;
+  p.cross_section = value_of<Arrangement>(cross_section).value();
+  p.surface_correction = value_of<SurfaceCorrection>(correction).value();
   p.rotation = rotation;
   resolve(p);
   return p;
@@ -97,8 +97,8 @@ TEST(SurfaceCorrection, LeavesTheMiddleOfAThickWallNearlyAlone) {
   Parameters p = test::paper_vessel(1e-3);
   p.inner_radius = 5e-3;
   p.outer_radius = 7e-3;
-  p.cross_section = "polar";
-  p.surface_correction = "calibrated";
+  p.cross_section = Arrangement::polar;
+  p.surface_correction = SurfaceCorrection::calibrated;
   resolve(p);
   const Lattice lattice = make_lattice(p);
   const BondFamilies families = weighted_families(p, lattice);
@@ -125,8 +125,8 @@ TEST(SurfaceCorrection, ResultsDoNotDependOnHowTheSectionIsTurned) {
 
 TEST(SurfaceCorrection, CalibrationNeedsAPolarSection) {
   EXPECT_THROW(vessel("lattice", "calibrated"), InputError);
-  EXPECT_EQ(surface_correction(vessel("lattice", "auto")), "none");
-  EXPECT_EQ(surface_correction(vessel("polar", "auto")), "calibrated");
+  EXPECT_EQ(surface_correction(vessel("lattice", "auto")), SurfaceCorrection::none);
+  EXPECT_EQ(surface_correction(vessel("polar", "auto")), SurfaceCorrection::calibrated);
 }
 
 }  // namespace

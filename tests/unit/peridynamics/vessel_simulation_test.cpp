@@ -16,9 +16,9 @@ Parameters weak_vessel() {
   v.spacing = 1.6e-4;
   v.horizon = 5.6e-4;
   v.critical_stretch = 0.02;
-  v.ends = "axial_periodic";
+  v.ends = EndCondition::axial_periodic;
   v.length = 1.6e-3;
-  v.schedule = "smooth_ramp";
+  v.schedule = Schedule::smooth_ramp;
   v.end_time = 5e-4;
   v.step_fraction = 0.65;
   v.pressure = 60e3;
@@ -27,10 +27,8 @@ Parameters weak_vessel() {
 }
 
 struct Made {
-  Parameters p = weak_vessel();
-  SharedFamilies families = shared_families(p, make_lattice(p));
-  TimeSteps time = time_steps(p, make_lattice(p), families);
-  VesselSimulation simulation{p, families, time.step, parallel::Communicator::world()};
+  SharedWall wall = make_wall(weak_vessel());
+  VesselSimulation simulation{*wall, parallel::Communicator::world()};
 };
 
 /// Steps until the onset of rupture.

@@ -108,24 +108,6 @@ Boundary checked_boundary(const network::Graph& graph, std::span<const network::
 
 }  // namespace
 
-std::string_view name_of(GraphSolver solver) {
-  switch (solver) {
-    case GraphSolver::automatic:
-      return "auto";
-    case GraphSolver::elimination:
-      return "elimination";
-    case GraphSolver::ldlt:
-      return "ldlt";
-    case GraphSolver::approximate_cholesky:
-      return "approximate_cholesky";
-    case GraphSolver::jacobi:
-      return "jacobi";
-    case GraphSolver::amg:
-      return "amg";
-  }
-  return "";
-}
-
 void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions,
                         const GraphSolverOptions& options) {
   const std::vector<bool> connected = junctions_with_vessels(graph);

@@ -5,9 +5,9 @@
 
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "core/enum_names.hpp"
 #include "network/graph.hpp"
 
 namespace rhexis::hemodynamics {
@@ -16,7 +16,15 @@ namespace rhexis::hemodynamics {
 /// trees and series-parallel networks.
 enum class GraphSolver : std::uint8_t { automatic, elimination, ldlt, approximate_cholesky, jacobi, amg };
 
-std::string_view name_of(GraphSolver solver);
+constexpr auto name_table(GraphSolver) {
+  using enum GraphSolver;
+  return std::to_array<Named<GraphSolver>>({{automatic, "auto"},
+                                            {elimination, "elimination"},
+                                            {ldlt, "ldlt"},
+                                            {approximate_cholesky, "approximate_cholesky"},
+                                            {jacobi, "jacobi"},
+                                            {amg, "amg"}});
+}
 
 struct GraphSolverOptions {
   GraphSolver solver = GraphSolver::automatic;

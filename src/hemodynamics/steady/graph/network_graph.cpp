@@ -25,7 +25,7 @@ using network::TreePair;
 
 network::BoundedGraph make_graph_network(const FlowProblem& problem, const Hydrostatic& hydrostatic) {
   network::BoundedGraph network;
-  if (problem.network.source == "tree") {
+  if (problem.network.is_tree()) {
     const TreePair tree(problem.tree);
     network.graph = tree.materialise();
     network.conditions =

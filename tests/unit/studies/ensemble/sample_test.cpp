@@ -9,18 +9,19 @@ namespace rhexis::ensemble {
 namespace {
 
 /// A short piece of the paper's wall, weak and coarse.
-peridynamics::Parameters weak_vessel() {
+const peridynamics::WallModel& weak_wall() {
   peridynamics::Parameters v = test::paper_vessel(1e-3);
   v.spacing = 1.6e-4;
   v.horizon = 5.6e-4;
   v.critical_stretch = 0.02;
-  v.ends = "axial_periodic";
+  v.ends = peridynamics::EndCondition::axial_periodic;
   v.length = 1.6e-3;
-  v.schedule = "smooth_ramp";
+  v.schedule = peridynamics::Schedule::smooth_ramp;
   v.end_time = 5e-4;
   v.step_fraction = 0.65;
   peridynamics::resolve(v);
-  return v;
+  static const peridynamics::SharedWall wall = peridynamics::make_wall(v);
+  return *wall;
 }
 
 const auto never = [] { return false; };
@@ -28,18 +29,18 @@ const auto never = [] { return false; };
 TEST(Sample, EndsAtTheOnsetOrAtTheEnd) {
   const Parameters p{.samples = 1};
   std::int64_t bonds = 0;
-  const auto high = simulate(p, weak_vessel(), 40e3, 0, never, bonds);
+  const auto high = simulate(p, weak_wall(), 40e3, 0, never, bonds);
   ASSERT_TRUE(high && high->ruptured && high->onset && high->first_break);
   EXPECT_LE(*high->first_break, *high->onset);
   EXPECT_LT(*high->onset, 5e-4);
   EXPECT_GT(high->max_displacement, 0);
   EXPECT_GT(bonds, 0);
-  const auto low = simulate(p, weak_vessel(), 2e3, 0, never, bonds);
+  const auto low = simulate(p, weak_wall(), 2e3, 0, never, bonds);
   ASSERT_TRUE(low);
   EXPECT_FALSE(low->ruptured || low->onset || low->first_break);
   EXPECT_LT(high->steps, low->steps);
   // The same again.
-  EXPECT_EQ(*simulate(p, weak_vessel(), 40e3, 0, never, bonds), *high);
+  EXPECT_EQ(*simulate(p, weak_wall(), 40e3, 0, never, bonds), *high);
 }
 
 TEST(Sample, StrongerWallsHoldLonger) {
@@ -49,8 +50,8 @@ TEST(Sample, StrongerWallsHoldLonger) {
     if (draw_wall(p, i).strength < draw_wall(p, weakest).strength) weakest = i;
     if (draw_wall(p, i).strength > draw_wall(p, strongest).strength) strongest = i;
   }
-  const auto weak = simulate(p, weak_vessel(), 60e3, weakest, never, bonds);
-  const auto strong = simulate(p, weak_vessel(), 60e3, strongest, never, bonds);
+  const auto weak = simulate(p, weak_wall(), 60e3, weakest, never, bonds);
+  const auto strong = simulate(p, weak_wall(), 60e3, strongest, never, bonds);
   ASSERT_TRUE(weak->ruptured && strong->ruptured);
   EXPECT_LT(*weak->onset, *strong->onset);
 }
@@ -59,7 +60,7 @@ TEST(Sample, StopsWhenAsked) {
   int asked = 0;
   std::int64_t bonds = 0;
   EXPECT_FALSE(simulate(
-      {.samples = 1}, weak_vessel(), 2e3, 0, [&] { return ++asked == 3; }, bonds));
+      {.samples = 1}, weak_wall(), 2e3, 0, [&] { return ++asked == 3; }, bonds));
   EXPECT_EQ(asked, 3);
 }
 

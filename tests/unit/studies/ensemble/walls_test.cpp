@@ -78,14 +78,14 @@ TEST(Walls, FactorsChangeTheirPropertyAlone) {
 
 TEST(Walls, TooThinForTheSpacingIsRefusedOrWarnedOf) {
   peridynamics::Parameters v = mean_vessel();  // five spacings thick
-  v.cross_section = "polar";
+  v.cross_section = peridynamics::Arrangement::polar;
   Parameters p{.samples = 1000, .seed = 1, .thickness_spread = 0.05};
   EXPECT_TRUE(check_walls(p, v).empty());
   p.thickness_spread = 0.2;
   const auto warnings = check_walls(p, v);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("of 1000 walls"), std::string::npos);
-  v.cross_section = "lattice";
+  v.cross_section = peridynamics::Arrangement::lattice;
   EXPECT_EQ(check_walls(p, v).size(), 2u);
   p.thickness_spread = 1;
   EXPECT_THROW(check_walls(p, v), InputError);
