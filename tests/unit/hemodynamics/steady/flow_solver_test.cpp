@@ -14,23 +14,23 @@ constexpr double tolerance = 1e-8;  // of solvers, relative
 const parallel::Communicator world = parallel::Communicator::world();
 const Progress silent = [](const std::string&) {};
 
-FlowProblem problem(const std::string& tier) {
+FlowProblem problem(network::Tier tier) {
   FlowProblem p;
   p.network.tier = tier;
   p.network.query = {"artery.010"};
   p.tree = test::random_rules(9);
-  p.tree.artery_wall = network::artery_wall(p.network.wall);
-  p.tree.vein_wall = network::vein_wall(p.network.wall);
+  p.tree.artery_wall = p.network.wall.artery;
+  p.tree.vein_wall = p.network.wall.vein;
   p.blood.viscosity = test::in_vivo();
   p.blood.inlet_pressure = 12600;
   p.blood.outlet_pressure = 600;
   return p;
 }
 
-class Tier : public testing::TestWithParam<const char*> {};
+class SolverOfTier : public testing::TestWithParam<network::Tier> {};
 
-TEST_P(Tier, FindsTheFlowOfTheImplicitTree) {
-  const auto reference = prepared_solver(problem("implicit"), world);
+TEST_P(SolverOfTier, FindsTheFlowOfTheImplicitTree) {
+  const auto reference = prepared_solver(problem(network::Tier::implicit_tree), world);
   const auto solver = prepared_solver(problem(GetParam()), world);
   EXPECT_EQ(solver->vessels(), reference->vessels());
   const NetworkSolution expected = reference->solve(silent, nullptr), found = solver->solve(silent, nullptr);
@@ -51,18 +51,19 @@ TEST_P(Tier, FindsTheFlowOfTheImplicitTree) {
   EXPECT_NEAR(found.queries[0].flow / expected.queries[0].flow, 1, tolerance);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tiers, Tier, testing::Values("explicit", "distributed"),
-                         [](const auto& tier) { return std::string(tier.param); });
+INSTANTIATE_TEST_SUITE_P(Tiers, SolverOfTier,
+                         testing::Values(network::Tier::explicit_graph, network::Tier::distributed_graph),
+                         [](const auto& tier) { return std::string(name_of(tier.param)); });
 
 TEST(FlowSolver, FindsVesselsByNameAndNamesTheKeyOfAnUnknownOne) {
-  for (const char* tier : {"implicit", "explicit"}) {
+  for (const network::Tier tier : {network::Tier::implicit_tree, network::Tier::explicit_graph}) {
     const auto solver = prepared_solver(problem(tier), world);
     const std::int64_t number = solver->find("vein.01", "coupling.vessel");
     solver->solve(silent, nullptr);
     EXPECT_EQ(solver->vessel(number).name, "vein.01");
     try {
       solver->find("vein.2", "coupling.vessel");
-      ADD_FAILURE() << tier;
+      ADD_FAILURE() << name_of(tier);
     } catch (const InputError& error) {
       EXPECT_EQ(error.key, "coupling.vessel");
     }
@@ -79,7 +80,7 @@ TEST(FlowSolver, VisitsEveryVesselOnce) {
     }
     std::size_t vessels = 0;
   };
-  const auto solver = prepared_solver(problem("explicit"), world);
+  const auto solver = prepared_solver(problem(network::Tier::explicit_graph), world);
   Count count;
   solver->solve(silent, &count);
   const std::int64_t all = solver->vessels();
