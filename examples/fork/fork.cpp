@@ -3,8 +3,8 @@
 //   cmake -B build -DCMAKE_PREFIX_PATH=/where/rhexis/is && cmake --build build && build/fork
 #include <cstdio>
 
-#include "hemodynamics/graph_flow.hpp"
 #include "hemodynamics/poiseuille.hpp"
+#include "hemodynamics/steady/graph/graph_flow.hpp"
 
 int main() {
   using rhexis::network::Condition;

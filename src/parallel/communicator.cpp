@@ -87,8 +87,6 @@ Session::Session(int& argc, char**& argv) {
   // than 243 characters; 'sm' fails where /dev/shm cannot be written.
   setenv("OMPI_MCA_sharedfp", access("/dev/shm", W_OK) == 0 ? "^lockedfile" : "^lockedfile,sm",
          /*overwrite=*/0);
-  // Started without mpirun there is one rank, which needs no daemon of Open MPI's beside it.
-  setenv("OMPI_MCA_ess_singleton_isolated", "1", /*overwrite=*/0);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   choose_threads();

@@ -46,7 +46,7 @@ std::string array(const std::string& name, const std::string& values) {
 std::string polydata(int points, int lines, const std::string& coordinates, const std::string& connectivity,
                      const std::string& offsets, const std::string& point_data,
                      const std::string& cell_data) {
-  return "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData><WallSegment "
+  return "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\"><PolyData><Piece "
          "NumberOfPoints=\"" +
          std::to_string(points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" + std::to_string(lines) +
          "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\"><PointData>" + point_data + "</PointData><CellData>" +
@@ -55,7 +55,7 @@ std::string polydata(int points, int lines, const std::string& coordinates, cons
          coordinates +
          "</DataArray></Points><Lines><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">" +
          connectivity + "</DataArray><DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">" + offsets +
-         "</DataArray></Lines></WallSegment></PolyData></VTKFile>\n";
+         "</DataArray></Lines></Piece></PolyData></VTKFile>\n";
 }
 
 TEST_F(VtpNetwork, RoundTripOfATree) {
