@@ -63,8 +63,8 @@ class ThreadSubdomain : public SubdomainExtent {
   /// Sums of component `k` (0, 1, 2: force; 3: energy, when observing) from local row `row` of a column on,
   /// in the kernel's units.
   Real* sums(std::size_t k, std::int32_t slot, std::int64_t row) const {
-    return sums_[k].get() + domain_->padded(static_cast<std::size_t>(slot - first_slot)) +
-           static_cast<std::size_t>(row);
+    return sums_[k].get() +
+           static_cast<std::ptrdiff_t>(domain_->padded(static_cast<std::size_t>(slot - first_slot))) + row;
   }
 
   /// Words of a column's bonds that lead into the subdomain from the 16 rows below it, or from those above;
