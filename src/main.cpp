@@ -7,8 +7,8 @@
 #include "runtime/terminal.hpp"
 
 /// The loader calls what stands here before the constructors of shared libraries.
-[[gnu::section(".preinit_array"), gnu::used]] static void (*const before_libraries)() =
-    rhexis::runtime::note_ignored_hangup;
+[[gnu::section(".preinit_array"),
+  gnu::used]] static void (*const before_libraries)() = rhexis::runtime::note_ignored_hangup;
 
 int main(int argc, char** argv) {
   rhexis::runtime::open_missing_streams();
