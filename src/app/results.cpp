@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/results.hpp"
 
+#include "output/json.hpp"
+
 namespace rhexis::app {
 namespace {
 
+using output::or_null;
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 }  // namespace
 

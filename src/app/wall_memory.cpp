@@ -27,7 +27,7 @@ WallUse use_of(const Configuration& c, int ranks) {
           .checkpoints = c.output.checkpoint_every > 0};
 }
 
-/// Of one wall: the ensemble's thickest, or the scene's.
+/// The memory of one wall: the ensemble's thickest, or the scene's.
 WallMemory memory_of(const Configuration& c, const peridynamics::Parameters& p, int ranks) {
   WallMemory memory = peridynamics::wall_memory(p, peridynamics::wall_size(p), use_of(c, ranks));
   if (c.is_ensemble()) {
@@ -122,7 +122,7 @@ void check_memory(const Configuration& c, const peridynamics::Parameters& resolv
                                     : ""));
   }
   const MemoryLimit limit = available_memory();
-  // Of those who share the limit.
+  // The part of the wall's memory that the processes which share the limit take together.
   const double share = c.is_ensemble() ? (limit.of_machine ? here : 1)
                                        : static_cast<double>(limit.of_machine ? here : 1) / ranks;
   parallel::together<InputError>(comm, [&] {

@@ -91,7 +91,7 @@ class CsvTable {
     return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
   }
 
-  /// Of a field, as much as a message can hold.
+  /// A field, shortened to what a message can hold.
   static std::string shown(const std::string& field) {
     constexpr std::size_t most = 60;
     return field.size() <= most ? field : field.substr(0, most) + "...";

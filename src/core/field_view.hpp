@@ -72,7 +72,7 @@ class LineSource {
   virtual ~LineSource() = default;
   virtual long step() const = 0;
   virtual double time_s() const = 0;
-  /// Of this rank's points, named "position", unit m, three components.
+  /// Positions of this rank's points: a field named "position", unit m, three components.
   virtual FieldView positions() = 0;
   /// Two point indices a line: [2 L].
   virtual std::span<const std::int64_t> connectivity() = 0;

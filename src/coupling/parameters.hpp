@@ -62,7 +62,7 @@ struct Parameters {
 
 ParameterList declare(Parameters& p);
 
-/// Of the body's section.
+/// The compression that section [body] describes.
 Compression compression(const Parameters& p);
 /// What acts on every vessel from outside (Pa): without a compression that has a range.
 double outside_everywhere(const Parameters& p);

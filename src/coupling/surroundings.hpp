@@ -18,7 +18,7 @@ namespace rhexis::coupling {
 struct VesselPlace {
   std::string name;
   std::optional<std::array<double, 3>> start, end;
-  /// Of the whole network, along each axis.
+  /// The lowest and the highest coordinate of the whole network along each axis.
   std::optional<std::array<std::pair<double, double>, 3>> extent;
 };
 

@@ -163,7 +163,7 @@ void Reading::name_vessels() {
 }  // namespace vtp
 
 double tapered_radius(double a, double b) {
-  // Of the ratio, lest a small radius' sixth power underflow.
+  // The power is taken of the ratio, lest a small radius' sixth power underflow.
   const double t = b / a;
   return a * std::pow(3 * t * t * t / (1 + t + t * t), 0.25);
 }

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "output/atomic_file.hpp"
+#include "output/json.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::output {
@@ -18,11 +19,6 @@ constexpr std::int64_t spare_bytes = 1 << 16;  ///< more than most records take
 std::string text_of(const Json& document) {
   // A reason may quote a file name in any encoding; it must not cost us the record.
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ class ExactSum {
     overflow_ = overflow_ || other.overflow_;
   }
 
-  /// Of this rank alone.
+  /// The sum of this rank alone.
   double value() const {
     return overflow_ ? std::numeric_limits<double>::infinity() : static_cast<double>(total_) * quantum_;
   }

@@ -34,7 +34,7 @@ struct Traffic {
 template <class Real>
 class HaloExchange {
  public:
-  /// Of fields with `components` arrays.
+  /// An exchange of fields that have `components` arrays each.
   HaloExchange(Communicator comm, std::vector<HaloMessage> messages, std::size_t components);
 
   /// Packs and sends the runs of `field`; they may be read but not written until `finish`.

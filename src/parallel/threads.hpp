@@ -6,7 +6,7 @@
 
 namespace rhexis::parallel {
 
-/// Of the calling thread, within the parallel region that it is in.
+/// The number of the calling thread within the parallel region that it is in.
 int thread_number();
 
 /// Calls `work(thread, begin, end)` once on each thread, with contiguous shares of [0, count) that are the

@@ -23,7 +23,7 @@ constexpr auto name_table(EndCondition) {
       {{free, "free"}, {clamped, "clamped"}, {sliding, "sliding"}, {axial_periodic, "axial_periodic"}});
 }
 
-/// Of particles over the cross-section.
+/// How particles are arranged over the cross-section.
 enum class Arrangement { polar, lattice };
 
 constexpr auto name_table(Arrangement) {
@@ -52,7 +52,7 @@ constexpr auto name_table(Schedule) {
       {{step, "step"}, {ramp, "ramp"}, {smooth_ramp, "smooth_ramp"}, {table, "table"}});
 }
 
-/// Of the pressure over its layer (loads/pressure_layer.hpp).
+/// How the pressure is distributed over its layer (loads/pressure_layer.hpp).
 enum class LayerForce { nonlocal, consistent, paper };
 
 constexpr auto name_table(LayerForce) {

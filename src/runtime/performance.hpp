@@ -23,7 +23,7 @@ struct Performance {
   std::optional<double> flop = {};
   std::optional<double> exchange_s = {};            ///< of halos, waiting included, mean over ranks
   std::optional<std::int64_t> exchange_bytes = {};  ///< sent to other ranks, sum over all
-  /// Of one message between the first rank and the last (parallel::measure_link).
+  /// Time and rate of one message between the first rank and the last (parallel::measure_link).
   std::optional<double> message_latency_s = {}, message_bandwidth_B_s = {};
   std::optional<std::int64_t> peak_rss_bytes = {};  ///< sum over all ranks
   std::optional<double> node_hours = {};

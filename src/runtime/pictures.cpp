@@ -38,7 +38,7 @@ bool is_package(const fs::path& path) {
   return fs::exists(path / "__init__.py");
 }
 
-/// Of a plain name, e.g. "vessel".
+/// The script that a plain name, e.g. "vessel", stands for.
 fs::path own_script(const std::string& name) {
   const fs::path folder = own_scripts();
   std::vector<std::string> known;

@@ -27,7 +27,7 @@ class Agreement {
 
   bool is_root() const { return communicator_.is_root(); }
 
-  /// Of the scripts' own work; what they wait for here does not count.
+  /// The limit is one of the scripts' own work; what they wait for here does not count.
   TimeLimit& time_limit() { return time_limit_; }
 
  private:

@@ -101,7 +101,7 @@ void transfer_lines(Transfer&& transfer, L& lines) {
   transfer_arrays(transfer, lines.cell_arrays);
 }
 
-/// Of this process, in bytes.
+/// The memory of this process, in bytes.
 std::uintmax_t address_space() {
   std::uintmax_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;

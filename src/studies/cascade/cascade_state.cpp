@@ -5,17 +5,14 @@
 #include <array>
 #include <stdexcept>
 
+#include "output/json.hpp"
 #include "studies/flow/network_record.hpp"
 
 namespace rhexis::studies {
 namespace {
 
+using output::or_null;
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 template <class T>
 std::optional<T> optional_at(const Json& json, const char* key) {

@@ -3,15 +3,13 @@
 
 #include <optional>
 
+#include "output/json.hpp"
+
 namespace rhexis::studies {
 namespace {
 
+using output::or_null;
 using Json = nlohmann::ordered_json;
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
 
 Json screening_record(const screening::ScreenedNetwork& screened) {
   Json list = Json::array();
