@@ -7,8 +7,6 @@
 #include <functional>
 #include <utility>
 
-#include "app/network_coupling.hpp"
-#include "app/vessel_run.hpp"
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
@@ -21,6 +19,8 @@
 #include "peridynamics/stability/linear_limit.hpp"
 #include "peridynamics/statics/elastic_error.hpp"
 #include "runtime/console.hpp"
+#include "scenes/coupled/network_coupling.hpp"
+#include "scenes/vessel/vessel_run.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -84,11 +84,11 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
                            name_of(peridynamics::surface_correction(wall.parameters)),
                            name_of(wall.parameters.layer)));
   console.item("strength", peridynamics::describe_strength(wall.parameters));
-  if (c.model == Model::vessel) {
+  if (c.model == scenes::Model::vessel) {
     console.item("load",
                  fmt::format("{} ({})", quantity(peridynamics::highest_pressure(wall.parameters), "Pa"),
                              peridynamics::describe_schedule(wall.parameters)));
-    print_risk(console, wall.parameters);
+    scenes::print_risk(console, wall.parameters);
   }
   console.item("time step",
                fmt::format("{} ({:.0f} % of the stable {}), {} steps", quantity(wall.time.step, "s"),
@@ -124,7 +124,7 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
 }  // namespace
 
 void check(const Configuration& c, parallel::Communicator comm) {
-  if (c.model == Model::network) {
+  if (c.model == scenes::Model::network) {
     check_network(c, comm);
   } else if (c.is_coupled()) {
     // The wall is known when the network has been solved.
@@ -132,7 +132,7 @@ void check(const Configuration& c, parallel::Communicator comm) {
     solved.network.statistics = false;
     runtime::Console console(comm.is_root(), false);
     console.line("Solving the network, which says what the wall and its load are:");
-    NetworkCoupling coupling(solved, nullptr, comm, console);
+    scenes::NetworkCoupling coupling(solved, nullptr, comm, console);
     if (coupling.at_rest()) {
       console.line(
           fmt::format("{} is valid. No vessel's risk is above cascade.risk_limit = {}: no wall is simulated.",

@@ -10,11 +10,6 @@
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
-#include "app/coupled_run.hpp"
-#include "app/ensemble_run.hpp"
-#include "app/folder_plan.hpp"
-#include "app/network_run.hpp"
-#include "app/vessel_run.hpp"
 #include "core/stopwatch.hpp"
 #include "input/keys.hpp"
 #include "output/unfinished_run.hpp"
@@ -22,6 +17,11 @@
 #include "runtime/console.hpp"
 #include "runtime/terminal.hpp"
 #include "runtime/version.hpp"
+#include "scenes/coupled/coupled_run.hpp"
+#include "scenes/ensemble/ensemble_run.hpp"
+#include "scenes/folder_plan.hpp"
+#include "scenes/network/network_run.hpp"
+#include "scenes/vessel/vessel_run.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -148,18 +148,19 @@ int carry_out(const Command& command, parallel::Communicator comm) {
     if (!configuration.no_pictures.empty())
       configuration.warnings.push_back("insitu.scripts: there can be no pictures: " +
                                        configuration.no_pictures);
-    output::refuse_obstacles(folder_plan(configuration, options), comm);
+    output::refuse_obstacles(scenes::folder_plan(configuration, options), comm);
     check(configuration, comm);
     for (const std::string& text : unfinished_runs(options, comm)) console.item("results", text);
     return told(comm);
   }
   for (const std::string& text : unfinished_runs(options, comm)) configuration.warnings.push_back(text);
   const auto run = [&] {
-    if (configuration.model == Model::network)
-      return NetworkRun(std::move(configuration), options, comm).run();
-    if (configuration.is_ensemble()) return EnsembleRun(std::move(configuration), options, comm).run();
-    if (configuration.is_coupled()) return run_coupled(std::move(configuration), options, comm);
-    return VesselRun(std::move(configuration), options, comm).run();
+    if (configuration.model == scenes::Model::network)
+      return scenes::NetworkRun(std::move(configuration), options, comm).run();
+    if (configuration.is_ensemble())
+      return scenes::EnsembleRun(std::move(configuration), options, comm).run();
+    if (configuration.is_coupled()) return scenes::run_coupled(std::move(configuration), options, comm);
+    return scenes::VesselRun(std::move(configuration), options, comm).run();
   };
   const runtime::Ending ending = run();
   return ending.interrupted() ? 128 + ending.signal : 0;

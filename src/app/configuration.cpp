@@ -6,9 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/pictures.hpp"
 #include "app/scene_keys.hpp"
-#include "app/scenes.hpp"
 #include "core/error.hpp"
 #include "core/memory.hpp"
 #include "input/document.hpp"
@@ -16,6 +14,8 @@
 #include "parallel/node.hpp"
 #include "parallel/together.hpp"
 #include "runtime/version.hpp"
+#include "scenes/pictures.hpp"
+#include "scenes/scenes.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -57,15 +57,16 @@ void warn_of_an_old_paraview(Configuration& c) {
 }
 
 void resolve(Configuration& c, parallel::Communicator comm) {
+  using scenes::Model;
   switch (c.model) {
     case Model::vessel:
-      return resolve_vessel_scene(c, comm);
+      return scenes::resolve_vessel_scene(c, comm);
     case Model::network:
-      return resolve_network(c, comm);
+      return scenes::resolve_network(c, comm);
     case Model::coupled:
-      return resolve_coupled_scene(c, comm);
+      return scenes::resolve_coupled_scene(c, comm);
     case Model::ensemble:
-      return resolve_ensemble_scene(c, comm);
+      return scenes::resolve_ensemble_scene(c, comm);
   }
 }
 
@@ -83,9 +84,9 @@ Configuration read_configuration(const std::string& file, const std::vector<std:
   });
   try {
     resolve(c, comm);
-    const bool stores = c.model == Model::vessel ? !c.output.fields.empty() : !c.is_ensemble();
+    const bool stores = c.model == scenes::Model::vessel ? !c.output.fields.empty() : !c.is_ensemble();
     if (stores && c.output.format != output::StoredAs::xdmf) warn_of_an_old_paraview(c);
-    find_scripts(c, comm);
+    scenes::find_scripts(c, comm);
   } catch (const InputError& error) {
     throw input::located(error, c.resolved);
   }

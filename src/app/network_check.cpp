@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "app/check.hpp"
-#include "app/flow_scene.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
 #include "hemodynamics/steady/tree/tree_statistics.hpp"
 #include "network/tree_pair.hpp"
 #include "runtime/console.hpp"
+#include "scenes/network/flow_scene.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -40,7 +40,7 @@ double seconds_per_vessel(const Configuration& c, parallel::Communicator comm) {
 }  // namespace
 
 void check_network(const Configuration& c, parallel::Communicator comm) {
-  const auto solver = checked_solver(c, comm);
+  const auto solver = scenes::checked_solver(c, comm);
   runtime::Console console(comm.is_root(), false);
   console.line(c.file + " is valid.");
   for (const std::string& warning : c.warnings) console.warning(warning);

@@ -4,12 +4,21 @@
 #include <algorithm>
 #include <optional>
 
-#include "app/scene_input.hpp"
-#include "app/scenes.hpp"
 #include "input/catalogue.hpp"
+#include "scenes/scene_input.hpp"
+#include "scenes/scenes.hpp"
 
 namespace rhexis::app {
 namespace {
+
+using scenes::append;
+using scenes::declare_coupled_scene;
+using scenes::declare_ensemble_scene;
+using scenes::declare_network;
+using scenes::declare_network_scene;
+using scenes::declare_vessel_scene;
+using scenes::declare_wall;
+using scenes::Model;
 
 ParameterList declare_scene(Configuration& c) {
   return {
@@ -86,9 +95,9 @@ ParameterList declare_model(Configuration& c, const input::Document& document) {
     const std::string key = input::without_table(entry.key);
     const std::string section = input::section_of(key);
     refuse(document.place(entry), "section [" + section + "]", section, has_section);
-    if (model == Model::coupled && network_sets(entry.key))
+    if (model == Model::coupled && scenes::network_sets(entry.key))
       throw InputError(document.place(entry) + ": the network says this of a coupled vessel");
-    if (model == Model::coupled && vessel_sets(entry.key))
+    if (model == Model::coupled && scenes::vessel_sets(entry.key))
       throw InputError(document.place(entry) + ": section [material] says this of a coupled network");
     refuse(document.place(entry), "this key", key, has_key);
   }

@@ -31,7 +31,8 @@ MAY_INCLUDE = {
     "output": {"parallel"},
     "insitu": {"parallel"},
     "runtime": {"parallel", "input", "output", "insitu"},
-    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "studies", "output", "insitu", "runtime"},
+    "scenes": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "studies", "output", "insitu", "runtime"},
+    "app": {"parallel", "input", "peridynamics", "network", "hemodynamics", "coupling", "studies", "output", "insitu", "runtime", "scenes"},
 }
 
 # Folder -> its rooms -> rooms of the same folder that they may include, besides themselves and the files outside any room,

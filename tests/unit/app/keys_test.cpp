@@ -177,7 +177,8 @@ TEST(Risk, IsThatOfLamesHoopStrainAtTheLumen) {
   const peridynamics::SharedWall wall = read_configuration(file, {}, world).wall;
   const peridynamics::Parameters& v = wall->parameters;
   const double hoop = (2.0 * 2.0 + 1.5 * 1.5) / (2.0 * 2.0 - 1.5 * 1.5);  // over the pressure
-  EXPECT_NEAR(risk_of_load(v).value(), 1e5 * (hoop + 0.25) / v.young_modulus / *v.critical_stretch, 1e-12);
+  EXPECT_NEAR(scenes::risk_of_load(v).value(), 1e5 * (hoop + 0.25) / v.young_modulus / *v.critical_stretch,
+              1e-12);
 }
 
 TEST(Warnings, OfBloodThatRunsBackwards) {

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scenes/coupled/network_coupling.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "core/stopwatch.hpp"
+#include "scenes/network/flow_scene.hpp"
+#include "studies/flow/network_record.hpp"
+
+namespace rhexis::scenes {
+namespace {
+
+/// Does `work`; InputErrors become complete with place.
+template <class Work>
+void with_place(const Configuration& c, const Work& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    throw input::located(error, c.resolved);
+  }
+}
+
+}  // namespace
+
+NetworkCoupling::NetworkCoupling(const Configuration& c, const studies::CascadeState* cascade,
+                                 parallel::Communicator comm, runtime::Console& console)
+    : c_(c), cascade_(cascade), comm_(comm) {
+  const Stopwatch watch(network_s_);
+  solver_ = prepared_solver(c_, comm_, cascade_);
+  find_named_vessel();
+  console.item("network", solver_->description());
+  network_ = studies::solve_network(
+      *solver_, flow_problem(c_, cascade_), screening_plan(c_, cascade_),
+      [&](const std::string& text) { console.line(text); }, comm_);
+  const std::vector<std::string>& warnings = network_.solution.warnings;
+  c_.warnings.insert(c_.warnings.end(), warnings.begin(), warnings.end());
+  choose();
+}
+
+/// Looks for what the input names before anything is solved. Throws InputError, complete with place.
+void NetworkCoupling::find_named_vessel() {
+  if (cascade_ != nullptr && !cascade_->simulated.empty()) {
+    const std::int64_t vessels = solver_->vessels();
+    for (const std::uint32_t v : cascade_->simulated) {
+      if (v >= vessels)
+        throw InputError("--restart: the network has fewer vessels than when the checkpoint was written");
+    }
+  }
+  if (!c_.coupling.screens())
+    with_place(c_, [&] { named_ = solver_->find(c_.coupling.vessel, "coupling.vessel"); });
+}
+
+/// The vessel whose wall is simulated. A cascade comes to rest when there is none.
+void NetworkCoupling::choose() {
+  if (named_) {
+    chosen_ = solver_->vessel(*named_);
+    chosen_.name = c_.coupling.vessel;
+  } else if (!network_.screened->at_risk.empty()) {
+    chosen_ = network_.screened->at_risk.front();
+  } else if (c_.coupling.events == 0) {
+    throw input::located(InputError("no vessel's wall is under tension", "coupling.vessel"), c_.resolved);
+  }
+  if (chosen_.radius > 0) {
+    risk_ =
+        screening::risk(screening_criterion(c_), std::midpoint(chosen_.pressure_from, chosen_.pressure_to),
+                        chosen_.wall_thickness / chosen_.radius, {chosen_.strength_factor, 1});
+  }
+  at_rest_ = c_.coupling.events > 0 && c_.coupling.screens() && !(risk_ > c_.coupling.risk_limit);
+}
+
+Configuration NetworkCoupling::with_wall() {
+  Configuration c = c_;
+  with_place(c_, [&] {
+    coupled_.emplace(c.coupling, flow_problem(c_, cascade_), c.vessel.discharge_coefficient, *solver_,
+                     network_.solution.display, chosen_, comm_, c.warnings);
+    coupled_->extract_wall(c.vessel);
+  });
+  resolve_coupled_wall(c, comm_);
+  with_place(c_, [&] { coupled_->set_windows(c.wall->parameters, c.wall->time.step, c.warnings); });
+  return c;
+}
+
+void NetworkCoupling::write(const output::ResultsFolder& folder) {
+  studies::write_network(network_files_plan(c_), network_, folder, comm_);
+}
+
+void NetworkCoupling::open(const output::ResultsFolder& folder) {
+  write(folder);
+  coupled_->open_table(folder);
+}
+
+void NetworkCoupling::save(output::CheckpointWriter& file) const {
+  coupled_->save(file, flow().inflow);
+  if (cascade_ != nullptr) studies::save_cascade(*cascade_, comm_, file);
+}
+
+void NetworkCoupling::restore(output::CheckpointReader& file, double time_s,
+                              const std::filesystem::path& directory) {
+  const bool is_cascade = cascade_ != nullptr;
+  if (!file.holds(coupling::coupled_vessel_name))
+    file.refuse("the checkpoint is not of a vessel that is coupled with a network");
+  if (file.holds(studies::cascade_name) != is_cascade)
+    file.refuse(is_cascade ? "the checkpoint is not of a cascade, as cascade.events asks for"
+                           : "the checkpoint is of a cascade's event; set cascade.events");
+  coupled_->restore(file, flow().inflow, is_cascade, time_s, directory);
+}
+
+LineSource& NetworkCoupling::lines() {
+  std::vector<Annotation> notes{
+      {"vessels", "1", static_cast<double>(flow().vessels)},
+      {"shown", "1", static_cast<double>(network_.solution.display.shown)},
+      {"inflow", "m3/s", flow().inflow},
+      {"leak", "m3/s", coupled_->state().leak},
+      {"event", "1", cascade_ != nullptr ? static_cast<double>(cascade_->events.size() + 1) : 0.0}};
+  if (chosen_.start) {
+    constexpr const char* names[] = {"chosen_start_x", "chosen_start_y", "chosen_start_z",
+                                     "chosen_end_x",   "chosen_end_y",   "chosen_end_z"};
+    for (std::size_t k = 0; k < 6; ++k)
+      notes.push_back({names[k], "m", (k < 3 ? *chosen_.start : *chosen_.end)[k % 3]});
+  }
+  hemodynamics::VesselLines& lines = network_.solution.display.lines;
+  lines.annotate(std::move(notes));
+  return lines;
+}
+
+nlohmann::ordered_json NetworkCoupling::network_record() const {
+  return studies::network_record(&network_);
+}
+
+nlohmann::ordered_json NetworkCoupling::results() const {
+  nlohmann::ordered_json json{{"vessel", studies::to_json(chosen_)}};
+  json.update(coupled_->results(network_s_));
+  return json;
+}
+
+void NetworkCoupling::print_header(runtime::Console& console, double time_step) const {
+  const coupling::WallSegment& segment = coupled_->segment();
+  const std::array<double, 3>& load = coupled_->state().load.pressure;
+  console.item("coupling",
+               fmt::format("vessel {} ({}{}), length {}, net pressure {} to {}", chosen_.name,
+                           network::name_of(chosen_.kind),
+                           chosen_.generation < 0 ? "" : fmt::format(", generation {}", chosen_.generation),
+                           quantity(chosen_.length, "m"), mmhg(load[0]), mmhg(load[2])));
+  if (!segment.whole) {
+    console.item(
+        "piece",
+        fmt::format("the constant-N rule leaves {:.1f} spacings across the wall ({}); simulated is the "
+                    "middle {} at 5 (coupling.resolution)",
+                    chosen_.wall_thickness / segment.paper_spacing, quantity(segment.paper_spacing, "m"),
+                    quantity(segment.length, "m")));
+  }
+  if (coupled_->two_way()) {
+    const long steps = coupled_->steps_per_window();
+    console.item("exchange", fmt::format("every {} ({} steps)",
+                                         quantity(static_cast<double>(steps) * time_step, "s"), steps));
+  }
+}
+
+void NetworkCoupling::print_summary(runtime::Console& console) const {
+  if (coupled_->two_way()) {
+    const coupling::ExchangeState& s = coupled_->state();
+    console.item("bleeding",
+                 fmt::format("{} at the end, {:.3g} uL in all, Reynolds number in the vessel up to {:.0f}; "
+                             "net pressure in the middle then {}, in the intact vessel {}",
+                             quantity(s.leak * 6e4, "L/min", 3), s.leaked * 1e9, s.highest_reynolds,
+                             mmhg(s.schedule * s.load.pressure[1]),
+                             mmhg(s.schedule * coupled_->intact_load().pressure[1])));
+    console.item("conserved", fmt::format("blood to {:.1e} of the inflow at worst, {} exchanges",
+                                          s.worst_imbalance, s.windows));
+  }
+  console.item("network", fmt::format("solved in {}; coupling took {} s", duration(network_s_),
+                                      text(coupled_->exchange_seconds())));
+}
+
+}  // namespace rhexis::scenes

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// A coupled scene's network and one of its vessels: the network is solved, its vessel chosen, and its wall
+/// resolved.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "coupling/coupled_vessel.hpp"
+#include "output/checkpoint.hpp"
+#include "output/results_folder.hpp"
+#include "runtime/console.hpp"
+#include "scenes/configuration.hpp"
+#include "studies/cascade/cascade_state.hpp"
+#include "studies/flow/solved_network.hpp"
+
+namespace rhexis::scenes {
+
+class NetworkCoupling {
+ public:
+  /// Solves the network and chooses its vessel: in a cascade with what the events so far left of it, else
+  /// `cascade` is null; it must live on. Nothing is written. Collective. Throws InputError and RunError.
+  NetworkCoupling(const Configuration& c, const studies::CascadeState* cascade, parallel::Communicator comm,
+                  runtime::Console& console);
+
+  /// No vessel's risk is above the cascade's limit: there is nothing to simulate.
+  bool at_rest() const { return at_rest_; }
+  /// The vessel that is simulated; where nothing is, the one at highest risk, if there is one.
+  const hemodynamics::NetworkVessel& chosen() const { return chosen_; }
+  double risk() const { return risk_; }  ///< of that vessel (studies/screening/screening.hpp)
+  const hemodynamics::NetworkFlow& flow() const { return network_.flow(); }
+
+  /// The configuration with that vessel, its load and its wall, resolved; `coupled()` is there from then on.
+  /// Collective. Throws InputError, complete with place.
+  Configuration with_wall();
+  coupling::CoupledVessel& coupled() { return *coupled_; }
+  const coupling::CoupledVessel& coupled() const { return *coupled_; }
+
+  /// Writes the network's files.
+  void write(const output::ResultsFolder& folder);
+  /// The same, and begins or continues coupling.csv.
+  void open(const output::ResultsFolder& folder);
+
+  /// See coupling::CoupledVessel; in a cascade with the cascade's state.
+  void save(output::CheckpointWriter& file) const;
+  void restore(output::CheckpointReader& file, double time_s, const std::filesystem::path& directory);
+
+  /// The network as it is shown: with the vessel's place, pressure and leak.
+  LineSource& lines();
+  nlohmann::ordered_json network_record() const;
+  nlohmann::ordered_json results() const;
+  void print_header(runtime::Console& console, double time_step) const;
+  void print_summary(runtime::Console& console) const;
+
+ private:
+  void find_named_vessel();
+  void choose();
+
+  Configuration c_;
+  const studies::CascadeState* cascade_;
+  parallel::Communicator comm_;
+  std::unique_ptr<hemodynamics::FlowSolver> solver_;
+  studies::SolvedNetwork network_;
+  std::optional<std::int64_t> named_;  ///< number of coupling.vessel, where it is named
+  hemodynamics::NetworkVessel chosen_;
+  std::optional<coupling::CoupledVessel> coupled_;
+  bool at_rest_ = false;
+  double risk_ = 0, network_s_ = 0;
+};
+
+}  // namespace rhexis::scenes
