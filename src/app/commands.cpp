@@ -68,6 +68,40 @@ std::vector<std::string> unfinished_runs(const runtime::RunOptions& options, par
   return texts;
 }
 
+/// Reads the input; what takes a while is told at `console`, which must live as long as the configuration.
+scenes::Configuration read_input(const Command& command, parallel::Communicator comm,
+                                 runtime::Console& console) {
+  if (const std::string& notice = parallel::threads_notice(); !notice.empty()) console.warning(notice);
+  scenes::Configuration input;
+  input.checks = command.action == Action::check;
+  // ParaView would start a second Python, and can be started only once in a process.
+  if (command.embedded) input.no_pictures = "a run within another program draws none";
+  input.say = [&](const std::string& label, const std::string& text) {
+    label.empty() ? console.line(text) : console.item(label, text);
+  };
+  return read_configuration(command.file, command.overrides, comm, std::move(input));
+}
+
+runtime::RunOptions run_options(const Command& command) {
+  return {.directory = command.directory.empty()
+                           ? std::filesystem::path("results") / std::filesystem::path(command.file).stem()
+                           : std::filesystem::path(command.directory),
+          .restart = command.restart,
+          .overwrite = command.overwrite,
+          .quiet = command.quiet,
+          .embedded = command.embedded,
+          .command = command.arguments};
+}
+
+runtime::Ending run_scene(scenes::Configuration configuration, const runtime::RunOptions& options,
+                          parallel::Communicator comm) {
+  if (configuration.model == scenes::Model::network)
+    return scenes::NetworkRun(std::move(configuration), options, comm).run();
+  if (configuration.is_ensemble()) return scenes::EnsembleRun(std::move(configuration), options, comm).run();
+  if (configuration.is_coupled()) return scenes::run_coupled(std::move(configuration), options, comm);
+  return scenes::VesselRun(std::move(configuration), options, comm).run();
+}
+
 }  // namespace
 
 Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
@@ -119,32 +153,42 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   return command;
 }
 
+nlohmann::ordered_json checked_values(const Command& command, parallel::Communicator comm) {
+  runtime::Console console(comm.is_root(), /*quiet=*/true);
+  const scenes::Configuration c = read_input(command, comm, console);
+  nlohmann::ordered_json values = {
+      {"model", name_of(c.model)}, {"input", c.record}, {"warnings", c.warnings}};
+  if (c.wall) {
+    values["particles"] = c.wall->particles();
+    values["steps"] = c.wall->time.count;
+    values["time_step_s"] = c.wall->time.step;
+    values["stable_time_step_s"] = c.wall->time.stable;
+  }
+  return values;
+}
+
+runtime::Ending run(const Command& command, parallel::Communicator comm, runtime::Observer observer) {
+  const double started = seconds_now();
+  runtime::Console console(comm.is_root(), command.quiet);
+  scenes::Configuration configuration = read_input(command, comm, console);
+  runtime::RunOptions options = run_options(command);
+  options.started = started;
+  options.observer = std::move(observer);
+  for (const std::string& text : unfinished_runs(options, comm)) configuration.warnings.push_back(text);
+  return run_scene(std::move(configuration), options, comm);
+}
+
 int carry_out(const Command& command, parallel::Communicator comm) {
   if (command.action == Action::keys) {
-    Configuration unused;
+    scenes::Configuration unused;
     const std::string text = input::describe_keys(declare(unused), command.section);
     if (comm.is_root()) runtime::print_out(text);
     return told(comm);
   }
-  const double started = seconds_now();
-  runtime::Console console(comm.is_root(), command.quiet);
-  if (const std::string& notice = parallel::threads_notice(); !notice.empty()) console.warning(notice);
-  Configuration input;
-  input.checks = command.action == Action::check;
-  input.say = [&](const std::string& label, const std::string& text) {
-    label.empty() ? console.line(text) : console.item(label, text);
-  };
-  Configuration configuration = read_configuration(command.file, command.overrides, comm, std::move(input));
-  runtime::RunOptions options;
-  options.directory = command.directory.empty()
-                          ? std::filesystem::path("results") / std::filesystem::path(command.file).stem()
-                          : std::filesystem::path(command.directory);
-  options.restart = command.restart;
-  options.overwrite = command.overwrite;
-  options.quiet = command.quiet;
-  options.command = command.arguments;
-  options.started = started;
   if (command.action == Action::check) {
+    runtime::Console console(comm.is_root(), command.quiet);
+    scenes::Configuration configuration = read_input(command, comm, console);
+    const runtime::RunOptions options = run_options(command);
     if (!configuration.no_pictures.empty())
       configuration.warnings.push_back("insitu.scripts: there can be no pictures: " +
                                        configuration.no_pictures);
@@ -153,16 +197,7 @@ int carry_out(const Command& command, parallel::Communicator comm) {
     for (const std::string& text : unfinished_runs(options, comm)) console.item("results", text);
     return told(comm);
   }
-  for (const std::string& text : unfinished_runs(options, comm)) configuration.warnings.push_back(text);
-  const auto run = [&] {
-    if (configuration.model == scenes::Model::network)
-      return scenes::NetworkRun(std::move(configuration), options, comm).run();
-    if (configuration.is_ensemble())
-      return scenes::EnsembleRun(std::move(configuration), options, comm).run();
-    if (configuration.is_coupled()) return scenes::run_coupled(std::move(configuration), options, comm);
-    return scenes::VesselRun(std::move(configuration), options, comm).run();
-  };
-  const runtime::Ending ending = run();
+  const runtime::Ending ending = run(command, comm);
   return ending.interrupted() ? 128 + ending.signal : 0;
 }
 

@@ -78,7 +78,10 @@ void choose_threads() {
 
 }  // namespace
 
-Session::Session(int& argc, char**& argv) {
+MpiLibrary::MpiLibrary(int& argc, char**& argv) {
+  int is_initialised = 0;
+  MPI_Initialized(&is_initialised);
+  if (is_initialised != 0) return;
   // Otherwise Open MPI 5 reports "Unable to find reachable pairing" on a host with IPv4 and IPv6 addresses
   // (open-mpi/ompi issue 14079), though the ranks reach each other. A setting of the user's stays.
   setenv("OMPI_MCA_reachable", "weighted", 0);
@@ -89,11 +92,20 @@ Session::Session(int& argc, char**& argv) {
          /*overwrite=*/0);
   int provided = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  is_owner_ = true;
+}
+
+MpiLibrary::~MpiLibrary() {
+  if (is_owner_) MPI_Finalize();
+}
+
+ThreadCount::ThreadCount() : before_(thread_count()) {
+  notice_of_threads.clear();
   choose_threads();
 }
 
-Session::~Session() {
-  MPI_Finalize();
+ThreadCount::~ThreadCount() {
+  omp_set_num_threads(before_);
 }
 
 Communicator Communicator::world() {

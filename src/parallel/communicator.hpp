@@ -12,14 +12,40 @@
 
 namespace rhexis::parallel {
 
-/// Initialises MPI for the life of the program (MPI_THREAD_FUNNELED: only the main thread calls MPI), and
-/// shares the cores of a machine among its ranks where OMP_NUM_THREADS is not set.
+/// MPI for the life of this object (MPI_THREAD_FUNNELED: only the main thread calls MPI). Where the process
+/// has initialised MPI before, it is used as it is and left running.
+class MpiLibrary {
+ public:
+  MpiLibrary(int& argc, char**& argv);
+  ~MpiLibrary();
+  MpiLibrary(const MpiLibrary&) = delete;
+  MpiLibrary& operator=(const MpiLibrary&) = delete;
+
+ private:
+  bool is_owner_ = false;
+};
+
+/// The number of OpenMP's threads for the life of this object: that of OMP_NUM_THREADS or, where it is not
+/// set, the cores of a machine shared among its ranks. Then the caller's number returns. Collective.
+class ThreadCount {
+ public:
+  ThreadCount();
+  ~ThreadCount();
+  ThreadCount(const ThreadCount&) = delete;
+  ThreadCount& operator=(const ThreadCount&) = delete;
+
+ private:
+  int before_;
+};
+
+/// Both, for the life of a program.
 class Session {
  public:
-  Session(int& argc, char**& argv);
-  ~Session();
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
+  Session(int& argc, char**& argv) : mpi_(argc, argv) {}
+
+ private:
+  MpiLibrary mpi_;
+  ThreadCount threads_;
 };
 
 enum class Reduce { sum, min, max, bit_or };

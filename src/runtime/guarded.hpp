@@ -16,6 +16,13 @@ namespace rhexis::runtime {
 /// Bytes of a message at most: what it quotes may be as long as a file.
 constexpr std::size_t longest_message = 4000;
 
+/// Ends the program on all ranks for a failure that only this rank knows of.
+[[noreturn]] inline void abort_because_of(const std::exception& error, parallel::Communicator comm) {
+  print_error(
+      fmt::format("rhexis: rank {}: {}\n", comm.rank(), printable(reason_of(error), longest_message)));
+  comm.abort(3);
+}
+
 /// Runs `work` and returns its exit status, or 2 for wrong input, or 3 for a failure while running. Both
 /// kinds of error are thrown on all ranks together, so one of them speaks; anything else is one rank's own
 /// and ends the program for all.
@@ -33,9 +40,7 @@ int guarded(parallel::Communicator comm, const Work& work) {
     say(error.what());
     return 3;
   } catch (const std::exception& error) {
-    print_error(
-        fmt::format("rhexis: rank {}: {}\n", comm.rank(), printable(reason_of(error), longest_message)));
-    comm.abort(3);
+    abort_because_of(error, comm);
   }
 }
 

@@ -39,13 +39,14 @@ std::atomic<int> first_signal = 0, guards = 0;
 std::array<std::atomic<int>, watched.size()> noted{};  ///< how often, while a guard lived
 std::atomic<int> fatal = 0;                            ///< signal that came without one
 std::atomic<bool> leave = false;                       ///< the thread's work is done
+std::atomic<bool> embedded = false;                    ///< signals are left to the run without a guard too
 sem_t wake;
 
 extern "C" void note_signal(int signal) {
   const int error = errno;
   int none = 0;
   first_signal.compare_exchange_strong(none, signal);
-  if (guards > 0) {
+  if (guards > 0 || embedded) {
     ++noted[place_of(signal)];
   } else {
     fatal = signal;
@@ -62,12 +63,14 @@ class Watch {
     return watch;
   }
 
-  void add(output::RunRecord& record, const std::filesystem::path& folder, bool writes) {
+  void add(output::RunRecord& record, const std::filesystem::path& folder, bool writes, bool is_embedded) {
     const std::lock_guard lock(mutex_);
     records_.push_back(&record);
     if (records_.size() > 1) return;  // of a run within a run, in a folder within its folder
     folder_ = folder;
     writes_ = writes;
+    embedded = is_embedded;
+    forget_signals();
     for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], nullptr, &before_[i]);
     catch_signals();
     leave = false;
@@ -92,7 +95,8 @@ class Watch {
     action.sa_flags = SA_RESTART;
     sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < watched.size(); ++i) {
-      const bool stays_ignored = watched[i] == SIGHUP && hangup_was_ignored;
+      const bool stays_ignored =
+          embedded ? before_[i].sa_handler == SIG_IGN : watched[i] == SIGHUP && hangup_was_ignored;
       action.sa_handler = stays_ignored ? SIG_IGN : note_signal;
       sigaction(watched[i], &action, nullptr);
     }
@@ -105,6 +109,14 @@ class Watch {
 
  private:
   Watch() { sem_init(&wake, 0, 0); }
+
+  /// Those of an earlier run in the same process.
+  void forget_signals() {
+    first_signal = fatal = 0;
+    for (auto& times : noted) times = 0;
+    seen_.fill(0);
+    count_ = repetitions_ = 0;
+  }
 
   void watch() {
     while (!leave) {
@@ -173,9 +185,10 @@ std::string interrupted_by(int signal) {
   return "interrupted by " + signal_name(signal);
 }
 
-SignalWatch::SignalWatch(output::RunRecord& record, const std::filesystem::path& folder, bool writes)
+SignalWatch::SignalWatch(output::RunRecord& record, const std::filesystem::path& folder, bool writes,
+                         bool embedded)
     : record_(&record) {
-  Watch::instance().add(record, folder, writes);
+  Watch::instance().add(record, folder, writes, embedded);
 }
 
 SignalWatch::~SignalWatch() {

@@ -33,8 +33,9 @@ std::string interrupted_by(int signal);
 class SignalWatch {
  public:
   /// `folder`: where temporary files are to go when the program ends at once. `writes`: this rank is the one
-  /// that tells the record, and the user.
-  SignalWatch(output::RunRecord& record, const std::filesystem::path& folder, bool writes);
+  /// that tells the record, and the user. `embedded`: the run is in another program, so that a signal is
+  /// noted as under an InterruptGuard, and one that the program ignores stays ignored.
+  SignalWatch(output::RunRecord& record, const std::filesystem::path& folder, bool writes, bool embedded);
   ~SignalWatch();
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
@@ -53,7 +54,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  /// The first signal, of this rank; 0 where there was none.
+  /// The first signal that this rank has got since the run began; 0 where there was none.
   static int requested();
 };
 

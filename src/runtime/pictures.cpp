@@ -80,7 +80,7 @@ void check_address(const std::string& live) {
 }  // namespace
 
 void find_scripts(PicturesPlan& plan, const std::string& input_file, parallel::Communicator comm) {
-  if (!plan.insitu.enabled || plan.insitu.scripts.empty()) return;
+  if (!plan.insitu.enabled || plan.insitu.scripts.empty() || !plan.obstacle.empty()) return;
   check_address(plan.insitu.live);
   for (std::string& script : plan.insitu.scripts) {
     std::string found;

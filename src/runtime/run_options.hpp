@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What the command line says of a run, and how runs end.
+/// What the caller (command line or Python) says of a run beside its input, and how runs end.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/field_view.hpp"
 #include "output/results_folder.hpp"
 
 namespace rhexis::runtime {
 
 struct Pictures;
 
+/// Is shown a vessel at each of its outputs, on all ranks. A RunError that it throws on all ranks ends the
+/// run.
+using Observer = std::function<void(PointSource&)>;
+
 struct RunOptions {
   std::filesystem::path directory;
   std::filesystem::path restart;  ///< checkpoint; empty: from the start
   bool overwrite = false;         ///< files in the folder of results that no run made
   bool quiet = false;
+  bool embedded = false;   ///< in another program (Python), which goes on when the run has ended
+  Observer observer = {};  ///< may be empty
   std::vector<std::string> command = {};    ///< as it was called
   double started = 0;                       ///< s, of the clock
   std::shared_ptr<Pictures> pictures = {};  ///< of the runs that this one is one of; null: it has its own

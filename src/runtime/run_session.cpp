@@ -46,7 +46,7 @@ void RunSession::open_record(std::optional<std::int64_t> first_step) {
   if (!options_.restart.empty()) provenance.checkpoint = options_.restart.string();
   folder_->remove_earlier_results();
   record_.emplace(folder_->claim("run.json"), provenance, state_.results(), Performance{}, comm_);
-  signals_.emplace(*record_, folder_->path(), comm_.is_root());
+  signals_.emplace(*record_, folder_->path(), comm_.is_root(), options_.embedded);
 }
 
 void RunSession::warn(const std::string& text) {
