@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How onset, number and size of cracks depend on the scatter of the wall: a table and a picture, measured here and now.
 
-    postprocessing/heterogeneity_study.py [--program build/release/bin/rhexis] [--seeds N] [-o results/heterogeneity]
+    postprocessing/heterogeneity_study.py [--seeds N] [-o results/heterogeneity]
 
 Runs a short endless piece of the vessel of inputs/perivessel.toml (polar cross-section, consistent load, venting) with
 several scatters, for several seeds each, and writes table.md and walls.png: the damage of each first seed's wall, laid
@@ -12,11 +12,8 @@ A crack is a set of particles of damage >= 0.2 in adjoining cells of 1.5 spacing
 """
 
 import argparse
-import json
 import pathlib
-import subprocess
 
-import h5py
 import matplotlib
 
 matplotlib.use("Agg")  # no display needed
@@ -24,14 +21,16 @@ matplotlib.use("Agg")  # no display needed
 import matplotlib.pyplot as pyplot
 import numpy
 
-from places import PROGRAM, RESULTS, ROOT
+from places import RESULTS, ROOT
+
+import rhexis
 
 RAMP_S, PRESSURE_PA = 1.8e-3, 320e3
 LENGTH_M, SPACING_M = 4e-3, 1e-4
-VESSEL = ["discretisation.cross_section=polar", "load.layer=consistent", "load.venting=orifice",
-          "boundary.ends=axial_periodic", f"vessel.length={LENGTH_M} m", f"discretisation.spacing={SPACING_M} m",
-          f"load.pressure={PRESSURE_PA} Pa", f"load.ramp_time={RAMP_S} s", "time.step=auto", f"time.end={RAMP_S} s", "insitu.enabled=false",
-          "output.fields=[\"damage\"]", "output.every_steps=1000000"]
+VESSEL = {"discretisation.cross_section": "polar", "load.layer": "consistent", "load.venting": "orifice",
+          "boundary.ends": "axial_periodic", "vessel.length": f"{LENGTH_M} m", "discretisation.spacing": f"{SPACING_M} m",
+          "load.pressure": f"{PRESSURE_PA} Pa", "load.ramp_time": f"{RAMP_S} s", "time.step": "auto", "time.end": f"{RAMP_S} s",
+          "output.fields": [], "output.every_steps": 1000000}  # the first and the last step
 RUPTURED = 0.2  # damage
 
 # Scatter of critical stretch and stiffness, law, correlation length in mm.
@@ -67,23 +66,24 @@ def cracks(points):
     return number, longest * LENGTH_M / layers
 
 
-def measure(program, folder, case, seed):
+def measure(folder, case, seed):
     """The numbers of one run, and its wall: reference positions [n, 3] in m and damage [n] at the end."""
     stretch, stiffness, law, length = case
-    command = [str(program), "run", str(ROOT / "inputs/perivessel.toml"), "-o", str(folder), "--quiet"]
-    for override in (*VESSEL, f"scatter.critical_stretch={stretch}", f"scatter.stiffness={stiffness}",
-                     f"scatter.law={law}", f"scatter.correlation_length={length} mm", f"scatter.seed={seed}"):
-        command += ["--set", override]
-    subprocess.run(command, check=True)
-    results = json.loads((folder / "run.json").read_text(encoding="utf-8"))["results"]
-    with h5py.File(folder / "particles.h5") as file:
-        points = file["reference_position"][:]
-        damage = file["damage"][max(filter(str.isdigit, file["damage"]))][:]
+    wall = []
+
+    def keep(moment):
+        points = numpy.subtract(moment["position"], moment["displacement"]).T
+        wall[:] = points, moment["damage"].copy()
+
+    scatter = {"scatter.critical_stretch": stretch, "scatter.stiffness": stiffness, "scatter.law": law,
+               "scatter.correlation_length": f"{length} mm", "scatter.seed": seed}
+    results = rhexis.run(ROOT / "inputs/perivessel.toml", VESSEL | scatter, output=folder, progress=keep)
+    points, damage = wall
     number, longest = cracks(points[damage >= RUPTURED])
     onset = results["rupture_onset_s"]
     broken = int((folder / "history.csv").read_text(encoding="utf-8").splitlines()[-1].split(",")[5])
     return [float("nan") if onset is None else onset / RAMP_S * PRESSURE_PA / 1e3, number, 1e3 * longest,
-            1e3 * results["rupture_length_m"], 100 * broken / results["bonds"]], (points, damage)
+            1e3 * results["rupture_length_m"], 100 * broken / results["bonds"]], wall
 
 
 def shown(values, digits):
@@ -105,7 +105,6 @@ def draw(axes, case, wall):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
     parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("-o", "--output", type=pathlib.Path, default=RESULTS / "heterogeneity")
     options = parser.parse_args()
@@ -115,7 +114,7 @@ def main():
     rows = []
     for number, case in enumerate(CASES):
         seeds = range(1, 1 + (options.seeds if case[0] or case[1] else 1))
-        runs = [measure(options.program, options.output / f"{number:02d}_{seed}", case, seed) for seed in seeds]
+        runs = [measure(options.output / f"{number:02d}_{seed}", case, seed) for seed in seeds]
         numbers = [shown(values, digits) for values, digits in
                    zip(zip(*(run[0] for run in runs)), (1, 0, 1, 1, 1))]
         rows.append([*map(str, case), *numbers])

@@ -1,8 +1,8 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Which choice that the paper leaves open moves which of its figures: a table, measured.
 
-    postprocessing/unstated_choices.py [--program build/release/bin/rhexis] [--ranks N] [-o results/unstated_choices]
+    postprocessing/unstated_choices.py [-o results/unstated_choices]
 
 Runs inputs/perivessel.toml once as it is and once for each change of a single choice, without pictures, and writes
 table.md and table.csv. About ten runs of a quarter of a minute on two cores.
@@ -10,27 +10,26 @@ table.md and table.csv. About ten runs of a quarter of a minute on two cores.
 
 import argparse
 import csv
-import json
 import pathlib
-import subprocess
 
-from places import PROGRAM, RESULTS, ROOT
+from places import RESULTS, ROOT
 
+import rhexis
 
 # What is changed, and how.
 CHOICES = [
-    ("as in inputs/perivessel.toml", []),
-    ("ends free", ["boundary.ends=free"]),
-    ("ends sliding", ["boundary.ends=sliding"]),
-    ("endless vessel", ["boundary.ends=axial_periodic"]),
-    ("layer consistent", ["load.layer=consistent"]),
-    ("lattice shifted half a spacing", ["discretisation.lattice_shift=[0.0, 0.0]"]),
-    ("polar cross-section", ["discretisation.cross_section=polar", "discretisation.surface_correction=none"]),
-    ("our discretisation", ["discretisation.cross_section=polar", "load.layer=nonlocal"]),
-    ("pressure at once", ["load.schedule=step"]),
-    ("smooth ramp", ["load.schedule=smooth_ramp"]),
-    ("venting", ["load.venting=orifice"]),
-    ("double-precision bonds", ["discretisation.bond_precision=double"]),
+    ("as in inputs/perivessel.toml", {}),
+    ("ends free", {"boundary.ends": "free"}),
+    ("ends sliding", {"boundary.ends": "sliding"}),
+    ("endless vessel", {"boundary.ends": "axial_periodic"}),
+    ("layer consistent", {"load.layer": "consistent"}),
+    ("lattice shifted half a spacing", {"discretisation.lattice_shift": [0.0, 0.0]}),
+    ("polar cross-section", {"discretisation.cross_section": "polar", "discretisation.surface_correction": "none"}),
+    ("our discretisation", {"discretisation.cross_section": "polar", "load.layer": "nonlocal"}),
+    ("pressure at once", {"load.schedule": "step"}),
+    ("smooth ramp", {"load.schedule": "smooth_ramp"}),
+    ("venting", {"load.venting": "orifice"}),
+    ("double-precision bonds", {"discretisation.bond_precision": "double"}),
 ]
 
 COLUMNS = ["choice", "first break (ms)", "damage 0.2 at (ms)", "u_max then (mm)", "u_max at 2.1 ms (mm)",
@@ -41,15 +40,8 @@ def shown(value, factor, digits=2):
     return "-" if value is None else f"{float(value) * factor:.{digits}f}"
 
 
-def measure(program, ranks, folder, overrides):
-    launcher = ["mpirun", "--bind-to", "none", "--oversubscribe", "--allow-run-as-root", "-n", str(ranks)]
-    command = (launcher if ranks > 1 else []) + [
-        str(program), "run", str(ROOT / "inputs/perivessel.toml"), "-o", str(folder), "--quiet",
-        "--set", "insitu.enabled=false", "--set", "output.fields=[]"]
-    for override in overrides:
-        command += ["--set", override]
-    subprocess.run(command, check=True)
-    results = json.loads((folder / "run.json").read_text())["results"]
+def measure(folder, overrides):
+    results = rhexis.run(ROOT / "inputs/perivessel.toml", {"output.fields": []} | overrides, output=folder)
     with open(folder / "history.csv", encoding="utf-8") as file:
         at = min(csv.DictReader(file), key=lambda row: abs(float(row["time_s"]) - 2.1e-3))
     return [shown(results["first_bond_break_s"], 1e3), shown(results["rupture_onset_s"], 1e3),
@@ -60,15 +52,13 @@ def measure(program, ranks, folder, overrides):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", type=pathlib.Path, default=PROGRAM)
-    parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("-o", "--output", type=pathlib.Path, default=RESULTS / "unstated_choices")
     options = parser.parse_args()
 
     rows = []
     for number, (name, overrides) in enumerate(CHOICES):
         print(f"{number + 1}/{len(CHOICES)}  {name}", flush=True)
-        rows.append([name, *measure(options.program, options.ranks, options.output / f"{number:02d}", overrides)])
+        rows.append([name, *measure(options.output / f"{number:02d}", overrides)])
     rows.append(["paper", "-", "1.85", "0.5", "-", "-", "2", "47", "8"])
 
     lines = ["| " + " | ".join(row) + " |" for row in [COLUMNS, ["---"] * len(COLUMNS), *rows]]

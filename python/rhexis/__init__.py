@@ -5,7 +5,8 @@
     results = rhexis.run("inputs/vented_vessel.toml", {"load.pressure": "250 kPa"})
     print(results["rupture_onset_s"])
 
-`overrides` are what --set takes, as {"section.key": value}: a number in SI units, a text such as "250 kPa", True or False, or a list.
+`overrides` are what --set takes, as {"section.key": value}: a quantity with its unit ("250 kPa"), a number that has none, a word,
+True or False, or a list.
 A call draws no pictures; the program does. Under mpirun every rank makes the same calls, and all get the same answers.
 
 MPI starts with the first call and ends with Python. During a call OpenMP has the threads that OMP_NUM_THREADS asks for, signals are
@@ -55,7 +56,8 @@ def run(file, overrides=None, *, output=None, restart=None, overwrite=False, qui
                end with the call: keep copies. What it raises ends the run, after a checkpoint, and comes out of here.
 
     Raises InputError (a ValueError) for a wrong input, before anything is written, and RunError (a RuntimeError) for a run that fails.
-    Ctrl-C makes the run save its state in `output` and end; then KeyboardInterrupt is raised. A third Ctrl-C ends Python at once.
+    Ctrl-C makes the run save its state in `output` and end; then KeyboardInterrupt is raised. The solution of a network goes on to its
+    end before. A third Ctrl-C ends Python at once.
     """
     with tempfile.TemporaryDirectory(prefix="rhexis_") as unused:
         folder = _rhexis.broadcast(str(output or unused))  # the first rank's, for all

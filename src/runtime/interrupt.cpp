@@ -131,7 +131,10 @@ class Watch {
   void take_notice(int signal) {
     if (++count_ == 1) {
       if (writes_) fail_records(interrupted_by(signal) + ", and ended before its state was saved");
-      say(fmt::format("{}: the run saves its state and ends", signal_name(signal)));
+      say(fmt::format("{}: {}", signal_name(signal),
+                      guards > 0 ? "the run saves its state and ends"
+                                 : "the run will end after what it is at, which cannot be interrupted; a "
+                                   "third Ctrl-C or kill ends it at once"));
     } else if (is_advance_notice(signal) || ++repetitions_ == 1) {
       say(fmt::format("{}: the run is saving its state; a third Ctrl-C or kill ends it at once",
                       signal_name(signal)));

@@ -72,6 +72,15 @@ class Install(unittest.TestCase):
             # Single precision inside a bond: levels round differently.
             self.assertAlmostEqual(peaks[level] / peaks["x86-64-v2"], 1, delta=1e-5)
 
+    @unittest.skipUnless(list(BUILD.glob("lib/python3/dist-packages/rhexis/_rhexis*")), "built without pybind11")
+    def test_python_imports_it(self):
+        ask = "import rhexis, sys; print(rhexis.__file__); print(rhexis.run(sys.argv[1], {'time.end': '1 us'})['steps'])"
+        folder = self.prefix / "lib/python3/dist-packages"
+        file, steps = run(sys.executable, "-c", ask, self.prefix / "share/rhexis/inputs/vented_vessel.toml",
+                          env=os.environ | {"PYTHONPATH": str(folder)}).splitlines()
+        self.assertTrue(file.startswith(str(folder)), file)
+        self.assertGreater(int(steps), 0)
+
     def test_an_example_builds_against_the_libraries(self):
         build = self.root / "build"
         run(CMAKE, "-S", SOURCE / "examples/fork", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release")

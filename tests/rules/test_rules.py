@@ -115,7 +115,7 @@ class Rules(unittest.TestCase):
                 self.assertTrue((doc.parent / link).exists(), f"{doc}: {link}")
 
     def test_every_source_file_names_the_licence(self):
-        files = [path for folder in ("src", "tests", "cmake", "examples", "postprocessing", "catalyst_scripts", ".ci") for path in (ROOT / folder).rglob("*")]
+        files = [path for folder in ("src", "python", "tests", "cmake", "examples", "postprocessing", "catalyst_scripts", ".ci") for path in (ROOT / folder).rglob("*")]
         files += [ROOT / name for name in ("CMakeLists.txt", "quickstart", "Dockerfile", "Doxyfile")]
         for path in files:
             source = path.suffix in (".hpp", ".cpp", ".in", ".py", ".cmake", ".sh") or path.name in ("CMakeLists.txt", "quickstart", "Dockerfile", "Doxyfile")
