@@ -39,14 +39,14 @@ std::atomic<int> first_signal = 0, guards = 0;
 std::array<std::atomic<int>, watched.size()> noted{};  ///< how often, while a guard lived
 std::atomic<int> fatal = 0;                            ///< signal that came without one
 std::atomic<bool> leave = false;                       ///< the thread's work is done
-std::atomic<bool> embedded = false;                    ///< signals are left to the run without a guard too
+std::atomic<bool> is_embedded = false;                 ///< signals are left to the run without a guard too
 sem_t wake;
 
 extern "C" void note_signal(int signal) {
   const int error = errno;
   int none = 0;
   first_signal.compare_exchange_strong(none, signal);
-  if (guards > 0 || embedded) {
+  if (guards > 0 || is_embedded) {
     ++noted[place_of(signal)];
   } else {
     fatal = signal;
@@ -63,13 +63,13 @@ class Watch {
     return watch;
   }
 
-  void add(output::RunRecord& record, const std::filesystem::path& folder, bool writes, bool is_embedded) {
+  void add(output::RunRecord& record, const std::filesystem::path& folder, bool writes, bool embedded) {
     const std::lock_guard lock(mutex_);
     records_.push_back(&record);
     if (records_.size() > 1) return;  // of a run within a run, in a folder within its folder
     folder_ = folder;
     writes_ = writes;
-    embedded = is_embedded;
+    is_embedded = embedded;
     forget_signals();
     for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], nullptr, &before_[i]);
     catch_signals();
@@ -96,7 +96,7 @@ class Watch {
     sigemptyset(&action.sa_mask);
     for (std::size_t i = 0; i < watched.size(); ++i) {
       const bool stays_ignored =
-          embedded ? before_[i].sa_handler == SIG_IGN : watched[i] == SIGHUP && hangup_was_ignored;
+          is_embedded ? before_[i].sa_handler == SIG_IGN : watched[i] == SIGHUP && hangup_was_ignored;
       action.sa_handler = stays_ignored ? SIG_IGN : note_signal;
       sigaction(watched[i], &action, nullptr);
     }
