@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
+#include <string>
 #include <utility>
 
 #include "core/error.hpp"
@@ -40,19 +40,17 @@ double seconds_per_step(const peridynamics::WallModel& wall, parallel::Communica
   return comm.all_reduce(elapsed, parallel::Reduce::max) / timed_steps / share;
 }
 
-/// `say_more`: what else there is to say of the vessel.
-void check_wall(const Configuration& c, parallel::Communicator comm,
-                const std::function<void(runtime::Console&)>& say_more) {
-  const peridynamics::WallModel& wall = *c.wall;
-  const peridynamics::Lattice& lattice = wall.lattice();
-  // A sample of an ensemble belongs to one rank, while the others have theirs.
-  const double step = comm.all_reduce(
-      seconds_per_step(wall, c.is_ensemble() ? parallel::Communicator::self() : comm), parallel::Reduce::max);
+runtime::Console console_of(const scenes::Reading& reading) {
+  return {reading.comm.is_root(), false};
+}
 
-  runtime::Console console(comm.is_root(), false);
-  console.line(c.file + " is valid.");
-  for (const std::string& warning : c.warnings) console.warning(warning);
-  if (say_more) say_more(console);
+void print_validity(runtime::Console& console, const scenes::SceneInput& s) {
+  console.line(s.file + " is valid.");
+  for (const std::string& warning : s.warnings) console.warning(warning);
+}
+
+void print_particles(runtime::Console& console, const peridynamics::WallModel& wall) {
+  const peridynamics::Lattice& lattice = wall.lattice();
   console.item("spacing", quantity(lattice.spacing, "m") +
                               fmt::format(" ({:.1f} across the wall), {} between rows",
                                           (wall.parameters.outer_radius - wall.parameters.inner_radius) /
@@ -70,13 +68,14 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
                fmt::format("{}{}, at most {} a particle", absent > 0 ? "fewer than " : "",
                            grouped(peridynamics::count_bonds(lattice, wall.families(), wall.is_periodic())),
                            peridynamics::largest_family(lattice, wall.families(), wall.is_periodic())));
-  // On one rank: on each they would take memory of their own.
+}
+
+void print_accuracy(runtime::Console& console, const peridynamics::WallModel& wall,
+                    parallel::Communicator comm) {
+  // On one rank: on each it would take memory of its own.
   peridynamics::ElasticError error{};
-  double limit = 0;
-  parallel::on_root<RunError>(comm, [&] {
-    error = peridynamics::elastic_error(wall.parameters, wall.setup);
-    limit = peridynamics::linear_time_step_limit(wall.setup);
-  });
+  parallel::on_root<RunError>(comm,
+                              [&] { error = peridynamics::elastic_error(wall.parameters, wall.setup); });
   console.item("accuracy",
                fmt::format("{:.2g} % off Lame's static expansion, evenly over the wall to {:.2g} % "
                            "(surface correction {}, layer {})",
@@ -84,12 +83,12 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
                            name_of(peridynamics::surface_correction(wall.parameters)),
                            name_of(wall.parameters.layer)));
   console.item("strength", peridynamics::describe_strength(wall.parameters));
-  if (c.model == scenes::Model::vessel) {
-    console.item("load",
-                 fmt::format("{} ({})", quantity(peridynamics::highest_pressure(wall.parameters), "Pa"),
-                             peridynamics::describe_schedule(wall.parameters)));
-    scenes::print_risk(console, wall.parameters);
-  }
+}
+
+void print_time_step(runtime::Console& console, const peridynamics::WallModel& wall,
+                     parallel::Communicator comm) {
+  double limit = 0;
+  parallel::on_root<RunError>(comm, [&] { limit = peridynamics::linear_time_step_limit(wall.setup); });
   console.item("time step",
                fmt::format("{} ({:.0f} % of the stable {}), {} steps", quantity(wall.time.step, "s"),
                            100 * wall.time.step / wall.time.stable, quantity(wall.time.stable, "s"),
@@ -97,54 +96,85 @@ void check_wall(const Configuration& c, parallel::Communicator comm,
   console.item("instability",
                fmt::format("begins at {} where strains are small, {:.2f} times the stable step",
                            quantity(limit, "s"), limit / wall.time.stable));
-  const std::string processors =
-      fmt::format("{} rank{} x {} thread{}", comm.size(), comm.size() > 1 ? "s" : "",
-                  parallel::thread_count(), parallel::thread_count() > 1 ? "s" : "");
-  if (c.is_ensemble()) {
-    const ensemble::Parameters& e = c.ensemble;
-    console.item("pressures", fmt::format("{} from {} to {}", e.pressures.size(), mmhg(e.pressures.front()),
-                                          mmhg(e.pressures.back())));
-    console.item("samples",
-                 fmt::format("{} = {} walls x {} pressures; the numbers above are of the mean wall",
-                             grouped(e.vessels()), e.samples, e.pressures.size()));
-    const double sample = step * static_cast<double>(wall.time.count);
-    const auto rounds = (e.vessels() + comm.size() - 1) / comm.size();
-    console.item("time",
-                 fmt::format("at most about {} ({} a sample that lasts to the end; those that rupture "
-                             "stop there) on {} (measured now)",
-                             duration(sample * static_cast<double>(rounds)), duration(sample), processors));
-    return;
-  }
-  console.item("outputs", grouped(static_cast<long long>(c.output_steps.size())));
+}
+
+/// "4 ranks x 2 threads".
+std::string processors(parallel::Communicator comm) {
+  return fmt::format("{} rank{} x {} thread{}", comm.size(), comm.size() > 1 ? "s" : "",
+                     parallel::thread_count(), parallel::thread_count() > 1 ? "s" : "");
+}
+
+/// What a run of `s.wall`, on all ranks together, will take; `step`: s, of one time step.
+void print_time(runtime::Console& console, const scenes::VesselScene& s, double step,
+                parallel::Communicator comm) {
+  console.item("outputs", grouped(static_cast<long long>(s.output_steps.size())));
   console.item("time",
                fmt::format("about {} of solving on {} (measured now; output and pictures come on top)",
-                           duration(step * static_cast<double>(wall.time.count)), processors));
+                           duration(step * static_cast<double>(s.wall->time.count)), processors(comm)));
 }
 
 }  // namespace
 
-void check(const Configuration& c, parallel::Communicator comm) {
-  if (c.model == scenes::Model::network) {
-    check_network(c, comm);
-  } else if (c.is_coupled()) {
-    // The wall is known when the network has been solved.
-    Configuration solved = c;
-    solved.network.statistics = false;
-    runtime::Console console(comm.is_root(), false);
-    console.line("Solving the network, which says what the wall and its load are:");
-    scenes::NetworkCoupling coupling(solved, nullptr, comm, console);
-    if (coupling.at_rest()) {
-      console.line(
-          fmt::format("{} is valid. No vessel's risk is above cascade.risk_limit = {}: no wall is simulated.",
-                      c.file, text(c.coupling.risk_limit)));
-      return;
-    }
-    const Configuration with_wall = coupling.with_wall();
-    check_wall(with_wall, comm,
-               [&](runtime::Console& to) { coupling.print_header(to, with_wall.wall->time.step); });
-  } else {
-    check_wall(c, comm, {});
+void check(const scenes::VesselScene& s, const scenes::Reading& reading) {
+  const peridynamics::WallModel& wall = *s.wall;
+  const double step = seconds_per_step(wall, reading.comm);
+  runtime::Console console = console_of(reading);
+  print_validity(console, s);
+  print_particles(console, wall);
+  print_accuracy(console, wall, reading.comm);
+  console.item("load", fmt::format("{} ({})", quantity(peridynamics::highest_pressure(wall.parameters), "Pa"),
+                                   peridynamics::describe_schedule(wall.parameters)));
+  scenes::print_risk(console, wall.parameters);
+  print_time_step(console, wall, reading.comm);
+  print_time(console, s, step, reading.comm);
+}
+
+void check(const scenes::CoupledScene& s, const scenes::Reading& reading) {
+  // The wall is known when the network has been solved.
+  scenes::CoupledScene solved = s;
+  solved.network.problem.network.statistics = false;
+  runtime::Console console = console_of(reading);
+  console.line("Solving the network, which says what the wall and its load are:");
+  scenes::NetworkCoupling coupling(solved, nullptr, reading, console);
+  if (coupling.at_rest()) {
+    console.line(
+        fmt::format("{} is valid. No vessel's risk is above cascade.risk_limit = {}: no wall is simulated.",
+                    s.file, text(s.coupling.risk_limit)));
+    return;
   }
+  const scenes::VesselScene vessel = coupling.make_vessel();
+  const peridynamics::WallModel& wall = *vessel.wall;
+  const double step = seconds_per_step(wall, reading.comm);
+  print_validity(console, vessel);
+  coupling.print_header(console, wall.time.step);
+  print_particles(console, wall);
+  print_accuracy(console, wall, reading.comm);
+  print_time_step(console, wall, reading.comm);
+  print_time(console, vessel, step, reading.comm);
+}
+
+void check(const scenes::EnsembleScene& s, const scenes::Reading& reading) {
+  const peridynamics::WallModel& wall = *s.wall;
+  const parallel::Communicator comm = reading.comm;
+  // A sample belongs to one rank, while the others have theirs.
+  const double step =
+      comm.all_reduce(seconds_per_step(wall, parallel::Communicator::self()), parallel::Reduce::max);
+  runtime::Console console = console_of(reading);
+  print_validity(console, s);
+  print_particles(console, wall);
+  print_accuracy(console, wall, comm);
+  print_time_step(console, wall, comm);
+  const ensemble::Parameters& e = s.ensemble;
+  console.item("pressures", fmt::format("{} from {} to {}", e.pressures.size(), mmhg(e.pressures.front()),
+                                        mmhg(e.pressures.back())));
+  console.item("samples", fmt::format("{} = {} walls x {} pressures; the numbers above are of the mean wall",
+                                      grouped(e.vessels()), e.samples, e.pressures.size()));
+  const double sample = step * static_cast<double>(wall.time.count);
+  const auto rounds = (e.vessels() + comm.size() - 1) / comm.size();
+  console.item("time", fmt::format("at most about {} ({} a sample that lasts to the end; those that rupture "
+                                   "stop there) on {} (measured now)",
+                                   duration(sample * static_cast<double>(rounds)), duration(sample),
+                                   processors(comm)));
 }
 
 }  // namespace rhexis::app

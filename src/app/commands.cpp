@@ -10,6 +10,7 @@
 
 #include "app/check.hpp"
 #include "app/configuration.hpp"
+#include "app/scene_keys.hpp"
 #include "core/stopwatch.hpp"
 #include "input/keys.hpp"
 #include "output/unfinished_run.hpp"
@@ -17,10 +18,11 @@
 #include "runtime/console.hpp"
 #include "runtime/terminal.hpp"
 #include "runtime/version.hpp"
+#include "scenes/coupled/coupled_files.hpp"
 #include "scenes/coupled/coupled_run.hpp"
 #include "scenes/ensemble/ensemble_run.hpp"
-#include "scenes/folder_plan.hpp"
 #include "scenes/network/network_run.hpp"
+#include "scenes/vessel/vessel_files.hpp"
 #include "scenes/vessel/vessel_run.hpp"
 
 namespace rhexis::app {
@@ -68,18 +70,14 @@ std::vector<std::string> unfinished_runs(const runtime::RunOptions& options, par
   return texts;
 }
 
-/// Reads the input; what takes a while is told at `console`, which must live as long as the configuration.
-scenes::Configuration read_input(const Command& command, parallel::Communicator comm,
-                                 runtime::Console& console) {
+/// How the command has its input read; what takes a while is told at `console`, which must live on.
+scenes::Reading reading_for(const Command& command, parallel::Communicator comm, runtime::Console& console) {
   if (const std::string& notice = parallel::threads_notice(); !notice.empty()) console.warning(notice);
-  scenes::Configuration input;
-  input.checks = command.action == Action::check;
+  scenes::Reading reading = scenes::reading_for_a_run(comm, console);
+  reading.only_checks = command.action == Action::check;
   // ParaView would start a second Python, and can be started only once in a process.
-  if (command.embedded) input.no_pictures = "a run within another program draws none";
-  input.say = [&](const std::string& label, const std::string& text) {
-    label.empty() ? console.line(text) : console.item(label, text);
-  };
-  return read_configuration(command.file, command.overrides, comm, std::move(input));
+  if (command.embedded) reading.no_pictures = "a run within another program draws none";
+  return reading;
 }
 
 runtime::RunOptions run_options(const Command& command) {
@@ -93,13 +91,30 @@ runtime::RunOptions run_options(const Command& command) {
           .command = command.arguments};
 }
 
-runtime::Ending run_scene(scenes::Configuration configuration, const runtime::RunOptions& options,
-                          parallel::Communicator comm) {
-  if (configuration.model == scenes::Model::network)
-    return scenes::NetworkRun(std::move(configuration), options, comm).run();
-  if (configuration.is_ensemble()) return scenes::EnsembleRun(std::move(configuration), options, comm).run();
-  if (configuration.is_coupled()) return scenes::run_coupled(std::move(configuration), options, comm);
-  return scenes::VesselRun(std::move(configuration), options, comm).run();
+/// Why there can be no pictures, where the scene names scripts; else empty.
+std::string obstacle_to_pictures(const Configuration& configuration) {
+  return std::visit(
+      [](const auto& scene) {
+        if constexpr (requires { scene.pictures; }) return scene.pictures.obstacle;
+        return std::string();
+      },
+      configuration);
+}
+
+void check_all(const Command& command, parallel::Communicator comm) {
+  runtime::Console console(comm.is_root(), command.quiet);
+  scenes::Reading reading = reading_for(command, comm, console);
+  Configuration configuration = read_configuration(command.file, command.overrides, reading);
+  const runtime::RunOptions options = run_options(command);
+  if (const std::string obstacle = obstacle_to_pictures(configuration); !obstacle.empty())
+    input_of(configuration).warnings.push_back("insitu.scripts: there can be no pictures: " + obstacle);
+  std::visit(
+      [&](const auto& scene) {
+        output::refuse_obstacles(scenes::folder_plan(scene, options), comm);
+        check(scene, reading);
+      },
+      configuration);
+  for (const std::string& text : unfinished_runs(options, comm)) console.item("results", text);
 }
 
 }  // namespace
@@ -155,14 +170,16 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
 
 nlohmann::ordered_json checked_values(const Command& command, parallel::Communicator comm) {
   runtime::Console console(comm.is_root(), /*quiet=*/true);
-  const scenes::Configuration c = read_input(command, comm, console);
+  scenes::Reading reading = reading_for(command, comm, console);
+  const Configuration configuration = read_configuration(command.file, command.overrides, reading);
+  const scenes::SceneInput& input = input_of(configuration);
   nlohmann::ordered_json values = {
-      {"model", name_of(c.model)}, {"input", c.record}, {"warnings", c.warnings}};
-  if (c.wall) {
-    values["particles"] = c.wall->particles();
-    values["steps"] = c.wall->time.count;
-    values["time_step_s"] = c.wall->time.step;
-    values["stable_time_step_s"] = c.wall->time.stable;
+      {"model", model_of(configuration)}, {"input", scenes::record_of(input)}, {"warnings", input.warnings}};
+  if (const peridynamics::WallModel* wall = wall_of(configuration)) {
+    values["particles"] = wall->particles();
+    values["steps"] = wall->time.count;
+    values["time_step_s"] = wall->time.step;
+    values["stable_time_step_s"] = wall->time.stable;
   }
   return values;
 }
@@ -170,31 +187,23 @@ nlohmann::ordered_json checked_values(const Command& command, parallel::Communic
 runtime::Ending run(const Command& command, parallel::Communicator comm, runtime::Observer observer) {
   const double started = seconds_now();
   runtime::Console console(comm.is_root(), command.quiet);
-  scenes::Configuration configuration = read_input(command, comm, console);
+  scenes::Reading reading = reading_for(command, comm, console);
+  Configuration configuration = read_configuration(command.file, command.overrides, reading);
   runtime::RunOptions options = run_options(command);
   options.started = started;
   options.observer = std::move(observer);
-  for (const std::string& text : unfinished_runs(options, comm)) configuration.warnings.push_back(text);
-  return run_scene(std::move(configuration), options, comm);
+  scenes::append(input_of(configuration).warnings, unfinished_runs(options, comm));
+  return std::visit([&](auto& scene) { return scenes::run(std::move(scene), options, comm); }, configuration);
 }
 
 int carry_out(const Command& command, parallel::Communicator comm) {
   if (command.action == Action::keys) {
-    scenes::Configuration unused;
-    const std::string text = input::describe_keys(declare(unused), command.section);
+    const std::string text = input::describe_keys(AllKeys().list(), command.section);
     if (comm.is_root()) runtime::print_out(text);
     return told(comm);
   }
   if (command.action == Action::check) {
-    runtime::Console console(comm.is_root(), command.quiet);
-    scenes::Configuration configuration = read_input(command, comm, console);
-    const runtime::RunOptions options = run_options(command);
-    if (!configuration.no_pictures.empty())
-      configuration.warnings.push_back("insitu.scripts: there can be no pictures: " +
-                                       configuration.no_pictures);
-    output::refuse_obstacles(scenes::folder_plan(configuration, options), comm);
-    check(configuration, comm);
-    for (const std::string& text : unfinished_runs(options, comm)) console.item("results", text);
+    check_all(command, comm);
     return told(comm);
   }
   const runtime::Ending ending = run(command, comm);

@@ -2,7 +2,7 @@
 /// What the program can be asked for, by the command line or by another program (python/), and doing it.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

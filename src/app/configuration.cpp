@@ -3,19 +3,15 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "app/scene_keys.hpp"
-#include "core/error.hpp"
 #include "core/memory.hpp"
 #include "input/document.hpp"
 #include "input/reader.hpp"
 #include "parallel/node.hpp"
 #include "parallel/together.hpp"
-#include "runtime/version.hpp"
-#include "scenes/pictures.hpp"
-#include "scenes/scenes.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -43,56 +39,36 @@ double reading_bytes(const std::string& text, const std::string& file, parallel:
   return bytes;
 }
 
-/// Who builds with a ParaView most likely looks at the files with it.
-void warn_of_an_old_paraview(Configuration& c) {
-  const std::string version = runtime::paraview_version();
-  int major = 0, minor = 0;
-  if (std::sscanf(version.c_str(), "%d.%d", &major, &minor) != 2 ||
-      std::pair(major, minor) >= std::pair(5, 12))
-    return;
-  c.warnings.push_back(
-      "output.format = \"" + std::string(name_of(c.output.format)) + "\": ParaView " + version +
-      ", which Rhexis was built with, cannot read VTKHDF files of particles and networks; 5.12 "
-      "and later can");
-}
-
-void resolve(Configuration& c, parallel::Communicator comm) {
-  using scenes::Model;
-  switch (c.model) {
-    case Model::vessel:
-      return scenes::resolve_vessel_scene(c, comm);
-    case Model::network:
-      return scenes::resolve_network(c, comm);
-    case Model::coupled:
-      return scenes::resolve_coupled_scene(c, comm);
-    case Model::ensemble:
-      return scenes::resolve_ensemble_scene(c, comm);
+/// The scene of the document with all values read, not resolved.
+Configuration scene_of(const input::Document& document) {
+  std::optional<Configuration> scene = scene_named(document);
+  if (!scene) {
+    input::read(document, AllKeys().list());  // refuses the value of scene.model
+    throw InputError(document.file + ": there is no such scene.model");
   }
+  std::string model = model_of(*scene);
+  const ParameterList keys = declare(*scene, model);
+  refuse_keys_of_other_kinds(document, keys, model);
+  scenes::SceneInput& input = input_of(*scene);
+  input.file = document.file;
+  input.resolved = input::read(document, keys);
+  input.warnings = input.resolved.warnings;
+  return std::move(*scene);
 }
 
 }  // namespace
 
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
-                                 parallel::Communicator comm, Configuration c) {
-  c.file = file;
-  const std::string text = read_on_root(file, comm);
-  c.input_bytes = reading_bytes(text, file, comm);
-  parallel::together(comm, [&] {  // a rank may lack the database of units
-    const input::Document document = input::parse_document(text, file, overrides);
-    c.resolved = input::read(document, declare_model(c, document));
-    c.warnings = c.resolved.warnings;
+                                 scenes::Reading& reading) {
+  const std::string text = read_on_root(file, reading.comm);
+  reading.input_bytes = reading_bytes(text, file, reading.comm);
+  Configuration scene;
+  parallel::together(reading.comm, [&] {  // a rank may lack the database of units
+    scene = scene_of(input::parse_document(text, file, overrides));
   });
-  try {
-    resolve(c, comm);
-    const bool stores = c.model == scenes::Model::vessel ? !c.output.fields.empty() : !c.is_ensemble();
-    if (stores && c.output.format != output::StoredAs::xdmf) warn_of_an_old_paraview(c);
-    scenes::find_scripts(c, comm);
-  } catch (const InputError& error) {
-    throw input::located(error, c.resolved);
-  }
-  c.record = input::to_json(c.resolved);
-  if (!c.table_checksum.empty()) c.record["load"]["table_file"]["checksum"] = c.table_checksum;
-  return c;
+  scenes::with_place(input_of(scene),
+                     [&] { std::visit([&](auto& s) { scenes::resolve(s, reading); }, scene); });
+  return scene;
 }
 
 }  // namespace rhexis::app

@@ -23,6 +23,16 @@ struct RunError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Does `check`; an InputError that it throws becomes one of `key`.
+template <class Check>
+void check_key(const char* key, const Check& check) {
+  try {
+    check();
+  } catch (const InputError& error) {
+    throw InputError(error.what(), key);
+  }
+}
+
 /// What to tell of a failure.
 inline std::string reason_of(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "out of memory" : error.what();

@@ -29,6 +29,8 @@ namespace rhexis::coupling {
 
 /// The name by which checkpoints of a coupled vessel hold the vessel's name in its network.
 inline constexpr const char* coupled_vessel_name = "coupled_vessel";
+/// The table of the exchanges of two-way coupling.
+inline constexpr const char* exchange_table_name = "coupling.csv";
 
 /// Whether two solutions of one network agree: on another kind of processor their last digits may differ.
 bool agree(double a, double b);

@@ -14,7 +14,6 @@
 namespace rhexis::coupling {
 namespace {
 
-constexpr const char* table_name = "coupling.csv";
 constexpr const char* table_header =
     "time_s,schedule,net_pressure_from_Pa,net_pressure_middle_Pa,net_pressure_to_Pa,opening_m2,leak_m3_s,"
     "inflow_m3_s,outflow_m3_s,resistance_factor,imbalance";
@@ -46,7 +45,7 @@ bool agree(double a, double b) {
 
 void CoupledVessel::open_table(const output::ResultsFolder& folder) {
   if (!two_way()) return;
-  const std::filesystem::path path = folder.claim(table_name);
+  const std::filesystem::path path = folder.claim(exchange_table_name);
   parallel::on_root<RunError>(comm_, [&] {
     table_ = output::TableFile(path, kept_table_.empty() ? fmt::format("{}\n", table_header) : kept_table_);
   });
@@ -70,7 +69,7 @@ void CoupledVessel::restore(output::CheckpointReader& file, double inflow, bool 
                   [&](const std::string& name, auto& value, double least) { file.read(name, value, least); });
   // The exchange at the checkpoint's moment is done anew.
   parallel::on_root<InputError>(comm_, [&] {
-    kept_table_ = output::kept_rows(directory / table_name, table_header,
+    kept_table_ = output::kept_rows(directory / exchange_table_name, table_header,
                                     [&](double row_time) { return row_time < time_s; });
   });
 }

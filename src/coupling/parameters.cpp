@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/parameters.hpp"
 
+#include "core/error.hpp"
+#include "core/format.hpp"
+#include "peridynamics/laws/strength.hpp"
+
 namespace rhexis::coupling {
 
 ParameterList declare(Parameters& p) {
@@ -79,6 +83,36 @@ ParameterList declare(Parameters& p) {
        .meaning = "Where it ends.",
        .only_with = {{"body.compression", {}}}},
   };
+}
+
+void resolve(const Parameters& p, hemodynamics::FlowProblem& network, peridynamics::Parameters& vessel) {
+  const bool is_cascade = p.events > 0, is_tree = network.is_tree();
+  const network::Tier tier = network.network.tier;
+  if (tier == network::Tier::distributed_graph)
+    throw InputError("a coupled vessel needs an implicit or explicit network", "network.tier");
+  if (vessel.schedule == peridynamics::Schedule::table)
+    throw InputError("the network says the pressure; a schedule by table is for scenes of one vessel",
+                     "load.schedule");
+  if (p.window && *p.window > vessel.end_time)
+    throw InputError("longer than the run, time.end = " + quantity(vessel.end_time, "s"), "coupling.window");
+  if (p.compression_from && p.compression_to && *p.compression_from >= *p.compression_to)
+    throw InputError("must be above body.compression_from", "body.compression_to");
+  if (vessel.energy_release_rate && !vessel.horizon)
+    throw InputError(
+        "before the network is solved no spacing is known, and so no critical stretch; give "
+        "discretisation.horizon, or material.critical_stretch",
+        "material.energy_release_rate");
+  if (is_cascade && is_tree && tier != network::Tier::explicit_graph)
+    throw InputError("a cascade needs network.tier = \"explicit\"", "cascade.events");
+  if (is_cascade && network.blood.phase_separation)
+    throw InputError("not with blood.phase_separation", "cascade.events");
+  if ((p.two_way() || is_cascade) && is_tree && !network.blood.outlet_pressure)
+    throw InputError("needed where a tree bleeds: what then leaves it is less than flow.inlet_flow",
+                     "flow.outlet_pressure");
+  vessel.blood_density = network.blood.density;
+  network.network.wall.young_modulus = vessel.young_modulus;
+  network.network.wall.poisson_ratio = vessel.law.poisson_ratio;
+  peridynamics::resolve_critical_stretch(vessel);
 }
 
 Compression compression(const Parameters& p) {

@@ -8,6 +8,8 @@
 
 #include "core/parameter.hpp"
 #include "coupling/net_pressure.hpp"
+#include "hemodynamics/steady/flow_problem.hpp"
+#include "peridynamics/parameters.hpp"
 
 namespace rhexis::coupling {
 
@@ -61,6 +63,11 @@ struct Parameters {
 };
 
 ParameterList declare(Parameters& p);
+
+/// Checks what one key alone cannot tell, before the network is solved, and gives network and vessel what the
+/// other one's input says for both: the density of blood, the walls' moduli and the critical stretch. Throws
+/// InputError with the key at fault.
+void resolve(const Parameters& p, hemodynamics::FlowProblem& network, peridynamics::Parameters& vessel);
 
 /// The compression that section [body] describes.
 Compression compression(const Parameters& p);

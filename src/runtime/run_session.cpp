@@ -19,8 +19,9 @@
 
 namespace rhexis::runtime {
 
-RunSession::RunSession(Scene scene, RunOptions options, parallel::Communicator comm, RunState state)
-    : scene_(std::move(scene)),
+RunSession::RunSession(RunDescription description, RunOptions options, parallel::Communicator comm,
+                       RunState state)
+    : description_(std::move(description)),
       options_(std::move(options)),
       comm_(comm),
       state_(std::move(state)),
@@ -38,11 +39,11 @@ void RunSession::open_record(std::optional<std::int64_t> first_step) {
       .version = version(),
       .commit = commit(),
       .command = options_.command,
-      .file = scene_.file,
+      .file = description_.file,
       .started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
                              fmt::gmtime(std::time(nullptr) - std::lround(seconds_now() - started_))),
       .first_step = first_step,
-      .input = scene_.input};
+      .input = *description_.input};
   if (!options_.restart.empty()) provenance.checkpoint = options_.restart.string();
   folder_->remove_earlier_results();
   record_.emplace(folder_->claim("run.json"), provenance, state_.results(), Performance{}, comm_);
@@ -94,7 +95,7 @@ void RunSession::note_failure(const std::string& reason) {
 void RunSession::start_pictures() {
   const Stopwatch watch(spent_.insitu);
   if (!options_.pictures)
-    *pictures_ = runtime::start_pictures(scene_.pictures, *folder_, comm_, fail_records_alone);
+    *pictures_ = runtime::start_pictures(description_.pictures, *folder_, comm_, fail_records_alone);
 }
 
 void RunSession::finish_pictures() {
@@ -104,14 +105,14 @@ void RunSession::finish_pictures() {
 }
 
 void RunSession::make_movie() {
-  if (!pictures_->pipeline || options_.pictures || !scene_.movie) return;
+  if (!pictures_->pipeline || options_.pictures || !description_.movie) return;
   const Stopwatch watch(spent_.insitu);
   std::string problem;
   parallel::together(comm_, [&] {
     if (!comm_.is_root()) return;
     output::TemporaryFile movie(folder_->path() / "movie.mp4");
     problem = output::make_movie(folder_->path() / "images", folder_->files_in("images"), movie.name(),
-                                 scene_.frames_per_second);
+                                 description_.frames_per_second);
     if (!problem.empty()) return;
     folder_->claim_on_root("movie.mp4");
     movie.put_in_place();

@@ -20,18 +20,10 @@
 #include "runtime/interrupt.hpp"
 #include "runtime/performance.hpp"
 #include "runtime/pictures.hpp"
+#include "runtime/run_description.hpp"
 #include "runtime/run_options.hpp"
 
 namespace rhexis::runtime {
-
-/// What is run, for the header, run.json and the pictures.
-struct Scene {
-  std::string file, title;
-  nlohmann::ordered_json input;  ///< as resolved, for run.json
-  PicturesPlan pictures;
-  bool movie = false;
-  double frames_per_second = 0;  ///< of the movie
-};
 
 /// What has been computed so far; nothing where nobody counts.
 struct Work {
@@ -63,7 +55,7 @@ void print_title(Console& console, const std::string& title, const std::string& 
 
 class RunSession {
  public:
-  RunSession(Scene scene, RunOptions options, parallel::Communicator comm, RunState state);
+  RunSession(RunDescription description, RunOptions options, parallel::Communicator comm, RunState state);
 
   const RunOptions& options() const { return options_; }
   bool restarts() const { return !options_.restart.empty(); }
@@ -95,7 +87,7 @@ class RunSession {
   /// To the terminal and to run.json.
   void warn(const std::string& text);
   void warn(const std::vector<std::string>& texts);
-  void print_title() { runtime::print_title(console_, scene_.title, scene_.file); }
+  void print_title() { runtime::print_title(console_, description_.title, description_.file); }
   /// Last lines of the header: ranks and threads, who draws, results.
   void print_surroundings();
   /// Last lines of the summary.
@@ -105,7 +97,7 @@ class RunSession {
   void note_failure(const std::string& reason);
   std::optional<double> energy_of_nodes();
 
-  Scene scene_;
+  RunDescription description_;
   RunOptions options_;
   parallel::Communicator comm_;
   RunState state_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "core/format.hpp"
 #include "input/catalogue.hpp"
@@ -34,8 +35,7 @@ bool of_its_load(const std::string& key) {
 }
 
 /// What a network may say of a body, as a record of input has it.
-Json measures(const Configuration& c) {
-  const peridynamics::Parameters& v = c.wall ? c.wall->parameters : c.vessel;
+Json measures(const peridynamics::Parameters& v) {
   const auto entry = [](double value, const std::string& written) {
     return Json{{"written", written}, {"value", value}};
   };
@@ -56,19 +56,20 @@ Json read_json(output::CheckpointReader& file, const std::string& name) {
 
 }  // namespace
 
-void write_input(output::CheckpointWriter& file, const Configuration& c) {
-  file.write("input", c.record.dump());
-  file.write("measures", measures(c).dump());
+void write_input(output::CheckpointWriter& file, const SceneInput& s, const peridynamics::Parameters* wall) {
+  file.write("input", record_of(s).dump());
+  if (wall != nullptr) file.write("measures", measures(*wall).dump());
 }
 
-void compare_input(output::CheckpointReader& file, Configuration& c, const std::string& since) {
-  const Json input = read_json(file, "input");
-  auto of_body = input::differences(input, c.record, of_the_body);
-  if (of_body.empty() && file.holds(step_name))
-    of_body = input::differences(read_json(file, "measures"), measures(c), of_the_body);
+void compare_input(output::CheckpointReader& file, SceneInput& s, const peridynamics::Parameters* wall,
+                   const std::string& since) {
+  const Json input = read_json(file, "input"), now = record_of(s);
+  auto of_body = input::differences(input, now, of_the_body);
+  if (of_body.empty() && wall != nullptr)
+    of_body = input::differences(read_json(file, "measures"), measures(*wall), of_the_body);
   if (!of_body.empty()) file.refuse("the checkpoint is of another body: " + of_body.front().text);
-  for (const input::Difference& d : input::differences(input, c.record, of_its_load))
-    c.warnings.push_back(fmt::format("{}, from {} on", d.text, since));
+  for (const input::Difference& d : input::differences(input, now, of_its_load))
+    s.warnings.push_back(fmt::format("{}, from {} on", d.text, since));
 }
 
 }  // namespace rhexis::scenes

@@ -5,7 +5,8 @@
 #include <string>
 
 #include "output/checkpoint.hpp"
-#include "scenes/configuration.hpp"
+#include "peridynamics/parameters.hpp"
+#include "scenes/scene.hpp"
 
 namespace rhexis::scenes {
 
@@ -13,11 +14,12 @@ namespace rhexis::scenes {
 /// are told from those of vessels.
 inline constexpr const char* step_name = "step";
 
-/// Collective.
-void write_input(output::CheckpointWriter& file, const Configuration& c);
+/// `wall`: null, or the resolved parameters of the wall, whose geometry a network may have given. Collective.
+void write_input(output::CheckpointWriter& file, const SceneInput& s, const peridynamics::Parameters* wall);
 
-/// Refuses the checkpoint of another body; warns of what else is different from `since` on. Collective;
-/// throws InputError.
-void compare_input(output::CheckpointReader& file, Configuration& c, const std::string& since);
+/// Refuses the checkpoint of another body; warns of what else is different from `since` on. `wall` as for
+/// `write_input`. Collective; throws InputError.
+void compare_input(output::CheckpointReader& file, SceneInput& s, const peridynamics::Parameters* wall,
+                   const std::string& since);
 
 }  // namespace rhexis::scenes

@@ -5,9 +5,76 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "core/format.hpp"
+#include "network/network_file.hpp"
+#include "network/vtp_network.hpp"
 
 namespace rhexis::hemodynamics {
+namespace {
+
+/// Generations of a tree that a machine holds in memory.
+constexpr int most_generations_in_memory = 27;
+
+void check_tier(const FlowProblem& problem) {
+  const network::Parameters& n = problem.network;
+  const bool is_distributed = n.tier == network::Tier::distributed_graph;
+  if (n.vtp && is_distributed) throw InputError("not with network.tier = \"distributed\"", "network.vtp");
+  if (n.vtp && !network::knows_vtp())
+    throw InputError("VTP files need ParaView's VTK when Rhexis is built", "network.vtp");
+  if (problem.blood.phase_separation && n.resolved_tier() != network::Tier::explicit_graph)
+    throw InputError("phase separation needs network.tier = \"explicit\"", "blood.phase_separation");
+  if (is_distributed && (!n.weakness.vessels.empty() || !n.weakness.subtrees.empty()))
+    throw InputError("weak walls need network.tier = \"implicit\" or \"explicit\"", "weakness.vessels");
+}
+
+void check_files(const FlowProblem& problem) {
+  const network::Parameters& n = problem.network;
+  if (!n.weakness.subtrees.empty())
+    throw InputError("only a tree has subtrees; name the vessels", "weakness.subtrees");
+  check_key("network.files", [&] { network::format_of(n.files); });
+  if (n.tier == network::Tier::implicit_tree) throw InputError("only a tree can be implicit", "network.tier");
+  check_key("network.file_length_unit", [&] { problem.to_si("1 " + n.file_length_unit, "m"); });
+}
+
+/// The vessels and subtrees that keys name, and whether the tree can be held as is asked for.
+void check_tree(const FlowProblem& problem) {
+  const network::Parameters& n = problem.network;
+  for (const std::string& vessel : n.query) check_path(problem, vessel, "network.query");
+  network::WallVariation(n.weakness).mark_in_tree(n.weakness, problem.tree.generations);
+  check_path(problem, n.shown_subtree, "network.shown_subtree");
+  if (n.tier == network::Tier::explicit_graph && problem.tree.generations > most_generations_in_memory)
+    throw InputError(fmt::format("an explicit network of more than {} generations needs more memory than a "
+                                 "machine has; take \"implicit\"",
+                                 most_generations_in_memory),
+                     "network.tier");
+}
+
+}  // namespace
+
+void check_path(const FlowProblem& problem, const std::string& path, const char* key) {
+  check_key(key, [&] { network::TreePair(problem.tree).id_of(path); });
+}
+
+std::vector<std::string> resolve(FlowProblem& problem) {
+  const network::Parameters& n = problem.network;
+  check(problem.blood);
+  check_tier(problem);
+  if (!n.is_tree()) {
+    check_files(problem);
+    return {};
+  }
+  if (!n.files.empty())
+    throw InputError("files are read only where network.source = \"file\"", "network.files");
+  problem.tree = network::rules_from(n.tree, n.wall.artery, n.wall.vein);
+  const TreeBoundary boundary = tree_boundary(problem.blood);
+  check_tree(problem);
+  if (boundary.inlet_pressure && boundary.outlet_pressure &&
+      *boundary.inlet_pressure < *boundary.outlet_pressure)
+    return {
+        "flow.inlet_pressure is below flow.outlet_pressure: blood runs backwards, from veins to arteries"};
+  return {};
+}
 
 std::string describe_source(const FlowProblem& problem) {
   if (!problem.is_tree()) return fmt::format("{}", fmt::join(problem.network.files, ", "));

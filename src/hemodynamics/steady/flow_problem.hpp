@@ -27,6 +27,13 @@ struct FlowProblem {
   bool builds_tree() const { return is_tree() && network.resolved_tier() != network::Tier::implicit_tree; }
 };
 
+/// Checks what one key alone cannot tell, and makes the rules of a tree. Throws InputError with the key at
+/// fault. Returns warnings.
+std::vector<std::string> resolve(FlowProblem& problem);
+
+/// Throws InputError with `key` where no vessel of the tree has the `path`, such as "artery.0110".
+void check_path(const FlowProblem& problem, const std::string& path, const char* key);
+
 /// "tree pair of 20 generations, 2,097,150 vessels in memory", or the names of the files.
 std::string describe_source(const FlowProblem& problem);
 

@@ -2,14 +2,11 @@
 /// Coupled scenes: one vessel of a network, or a cascade of them.
 #pragma once
 
-#include "parallel/communicator.hpp"
-#include "runtime/run_options.hpp"
-#include "scenes/configuration.hpp"
+#include "scenes/coupled/coupled_scene.hpp"
 
 namespace rhexis::scenes {
 
-/// From the configuration to its results. Collective. Throws as VesselRun::run.
-runtime::Ending run_coupled(Configuration configuration, const runtime::RunOptions& options,
-                            parallel::Communicator comm);
+/// From the scene to its results. Throws as VesselRun::run. Collective.
+runtime::Ending run(CoupledScene scene, const runtime::RunOptions& options, parallel::Communicator comm);
 
 }  // namespace rhexis::scenes

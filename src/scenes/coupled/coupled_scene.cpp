@@ -1,95 +1,92 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The rupture of a vessel of a network.
+#include "scenes/coupled/coupled_scene.hpp"
+
 #include <algorithm>
 
 #include "core/format.hpp"
+#include "hemodynamics/vessel_lines.hpp"
 #include "input/catalogue.hpp"
-#include "peridynamics/laws/strength.hpp"
-#include "scenes/scene_input.hpp"
-#include "scenes/scenes.hpp"
+#include "peridynamics/monitors/particle_source.hpp"
 
 namespace rhexis::scenes {
+namespace {
 
+/// Keys of a vessel that its network takes over.
 bool network_sets(const std::string& key) {
   return input::section_of(key) == "vessel" || key == "load.pressure" || key == "load.table" ||
          key == "load.table_file" || key == "load.repeat" || key == "load.blood_density";
 }
 
+/// Keys of a network that its vessel takes over.
 bool vessel_sets(const std::string& key) {
   return key == "wall.young_modulus" || key == "wall.poisson_ratio" || key == "screening.critical_stretch";
 }
 
-ParameterList declare_coupled_scene(Configuration& c) {
-  ParameterList all = coupling::declare(c.coupling);
-  for (const Parameter& parameter : declare_wall(c)) {
+/// In two-way coupling the network says how the pressure falls.
+void resolve_venting(CoupledScene& s) {
+  if (!s.coupling.two_way()) return;
+  if (s.vessel.venting != peridynamics::Venting::none && given(s, "load.venting"))
+    throw InputError("not with coupling.mode = \"two_way\", where the network says how the pressure falls",
+                     "load.venting");
+  s.vessel.venting = peridynamics::Venting::none;
+  warn_of_no_effect(s, "load.supply_area",
+                    "with coupling.mode = \"two_way\": the network supplies the blood");
+}
+
+}  // namespace
+
+ParameterList declare(CoupledScene& s) {
+  ParameterList all = coupling::declare(s.coupling);
+  for (const Parameter& parameter : declare_wall(s.vessel, s.output)) {
     if (!network_sets(parameter.key)) all.push_back(parameter);
   }
-  for (const Parameter& parameter : declare_network(c)) {
+  for (const Parameter& parameter : declare_network(s.network)) {
     if (!vessel_sets(parameter.key)) all.push_back(parameter);
   }
-  append(all, insitu::declare(c.insitu));
+  append(all, insitu::declare(s.pictures.insitu));
   return all;
 }
 
-void resolve_coupled_scene(Configuration& c, parallel::Communicator comm) {
-  resolve_network(c, comm);
-  coupling::Parameters& p = c.coupling;
-  if (c.network.tier == network::Tier::distributed_graph)
-    throw InputError("a coupled vessel needs an implicit or explicit network", "network.tier");
-  if (c.vessel.schedule == peridynamics::Schedule::table)
-    throw InputError("the network says the pressure; a schedule by table is for scenes of one vessel",
-                     "load.schedule");
-  if (c.vessel.spacing) warn_of_no_effect(c, "coupling.resolution", "where discretisation.spacing is given");
-  if (p.window && *p.window > c.vessel.end_time)
-    throw InputError("longer than the run, time.end = " + quantity(c.vessel.end_time, "s"),
-                     "coupling.window");
-  if (p.two_way()) {
-    if (c.vessel.venting != peridynamics::Venting::none && given(c, "load.venting"))
-      throw InputError("not with coupling.mode = \"two_way\", where the network says how the pressure falls",
-                       "load.venting");
-    c.vessel.venting = peridynamics::Venting::none;
-    warn_of_no_effect(c, "load.supply_area",
-                      "with coupling.mode = \"two_way\": the network supplies the blood");
-  }
-  if (p.compression_from && p.compression_to && *p.compression_from >= *p.compression_to)
-    throw InputError("must be above body.compression_from", "body.compression_to");
-  c.vessel.blood_density = c.hemodynamics.density;
-  c.network.wall.young_modulus = c.vessel.young_modulus;
-  c.network.wall.poisson_ratio = c.vessel.law.poisson_ratio;
-  if (c.vessel.energy_release_rate && !c.vessel.horizon)
-    throw InputError(
-        "before the network is solved no spacing is known, and so no critical stretch; give "
-        "discretisation.horizon, or material.critical_stretch",
-        "material.energy_release_rate");
-  peridynamics::resolve_critical_stretch(c.vessel);
-  c.screening.critical_stretch = *c.vessel.critical_stretch;
-  if (p.events > 0 && c.network.is_tree() && c.network.tier != network::Tier::explicit_graph)
-    throw InputError("a cascade needs network.tier = \"explicit\"", "cascade.events");
-  if (p.events > 0 && c.hemodynamics.phase_separation)
-    throw InputError("not with blood.phase_separation", "cascade.events");
-  if (p.events > 0) {
-    c.screening.top = std::max<std::int64_t>(1, c.screening.top);
-    warn_of_an_unfinished_ramp(c);
-  }
-  const hemodynamics::Parameters& h = c.hemodynamics;
-  if ((p.two_way() || p.events > 0) && c.network.is_tree() && !h.outlet_pressure)
-    throw InputError("needed where a tree bleeds: what then leaves it is less than flow.inlet_flow",
-                     "flow.outlet_pressure");
-  if (p.screens()) c.screening.top = std::max<std::int64_t>(1, c.screening.top);
+void refuse_coupled_key(const std::string& key, const std::string& place) {
+  if (network_sets(key)) throw InputError(place + ": the network says this of a coupled vessel");
+  if (vessel_sets(key)) throw InputError(place + ": section [material] says this of a coupled network");
 }
 
-void resolve_coupled_wall(Configuration& c, parallel::Communicator comm) {
+void resolve(CoupledScene& s, const Reading& reading) {
+  resolve_network(s, s.network, reading.comm);
+  if (s.network.problem.is_tree() && !s.coupling.screens())
+    hemodynamics::check_path(s.network.problem, s.coupling.vessel, "coupling.vessel");
+  coupling::resolve(s.coupling, s.network.problem, s.vessel);
+  if (s.vessel.spacing) warn_of_no_effect(s, "coupling.resolution", "where discretisation.spacing is given");
+  resolve_venting(s);
+  s.network.screening.critical_stretch = *s.vessel.critical_stretch;
+  if (s.is_cascade() || s.coupling.screens())
+    s.network.screening.top = std::max<std::int64_t>(1, s.network.screening.top);
+  if (s.is_cascade()) warn_of_an_unfinished_ramp(s, s.vessel);
+  warn_of_an_old_paraview(s, s.output.format);
+  s.pictures.particle_fields = names_of(peridynamics::ParticleSource::all_fields());
+  s.pictures.network_fields = names_of(hemodynamics::VesselLines().fields());
+  find_scripts(s, s.pictures, reading);
+}
+
+VesselScene vessel_of(const CoupledScene& s) {
+  return {s, s.vessel, s.output, s.pictures};
+}
+
+void resolve_coupled_wall(VesselScene& s, const Reading& reading) {
   try {
-    make_wall(c, comm);
+    peridynamics::WallDemand demand = demand_of(s.output, s.pictures, reading);
+    demand.geometry_is_given = true;
+    resolve_wall(s, demand, reading);
   } catch (const InputError& error) {
-    if (!network_sets(error.key)) throw input::located(error, c.resolved);
-    const peridynamics::Parameters& v = c.vessel;
+    if (!network_sets(error.key)) throw input::located(error, s.resolved);
+    const peridynamics::Parameters& v = s.vessel;
     throw input::located(
         InputError(std::string(error.what()) + " (lumen radius " + quantity(v.inner_radius, "m") + ", wall " +
                        quantity(v.outer_radius - v.inner_radius, "m") + ", length " +
                        quantity(v.length, "m") + ")",
                    "coupling.vessel"),
-        c.resolved);
+        s.resolved);
   }
 }
 

@@ -3,41 +3,39 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
-#include "scenes/network/flow_scene.hpp"
 #include "studies/flow/network_record.hpp"
 
 namespace rhexis::scenes {
 namespace {
 
-/// Does `work`; InputErrors become complete with place.
-template <class Work>
-void with_place(const Configuration& c, const Work& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    throw input::located(error, c.resolved);
-  }
+studies::ScreeningPlan plan_screening(const CoupledScene& s, const studies::CascadeState* cascade) {
+  return screening_plan(s.network, coupling::outside_everywhere(s.coupling),
+                        cascade != nullptr ? cascade->simulated : std::vector<std::uint32_t>{});
 }
 
 }  // namespace
 
-NetworkCoupling::NetworkCoupling(const Configuration& c, const studies::CascadeState* cascade,
-                                 parallel::Communicator comm, runtime::Console& console)
-    : c_(c), cascade_(cascade), comm_(comm) {
+NetworkCoupling::NetworkCoupling(const CoupledScene& scene, const studies::CascadeState* cascade,
+                                 const Reading& reading, runtime::Console& console)
+    : scene_(scene),
+      cascade_(cascade),
+      reading_(reading),
+      problem_(scene.network.problem),
+      screening_(plan_screening(scene, cascade)) {
   const Stopwatch watch(network_s_);
-  solver_ = prepared_solver(c_, comm_, cascade_);
+  if (cascade_ != nullptr) problem_.failures = cascade_->failures;
+  solver_ = with_place(scene_, [&] { return hemodynamics::prepared_solver(problem_, reading_.comm); });
   find_named_vessel();
   console.item("network", solver_->description());
   network_ = studies::solve_network(
-      *solver_, flow_problem(c_, cascade_), screening_plan(c_, cascade_),
-      [&](const std::string& text) { console.line(text); }, comm_);
-  const std::vector<std::string>& warnings = network_.solution.warnings;
-  c_.warnings.insert(c_.warnings.end(), warnings.begin(), warnings.end());
+      *solver_, problem_, screening_, [&](const std::string& text) { console.line(text); }, reading_.comm);
+  append(scene_.warnings, network_.solution.warnings);
   choose();
 }
 
@@ -50,42 +48,44 @@ void NetworkCoupling::find_named_vessel() {
         throw InputError("--restart: the network has fewer vessels than when the checkpoint was written");
     }
   }
-  if (!c_.coupling.screens())
-    with_place(c_, [&] { named_ = solver_->find(c_.coupling.vessel, "coupling.vessel"); });
+  if (!scene_.coupling.screens())
+    named_ = with_place(scene_, [&] { return solver_->find(scene_.coupling.vessel, "coupling.vessel"); });
 }
 
 /// The vessel whose wall is simulated. A cascade comes to rest when there is none.
 void NetworkCoupling::choose() {
   if (named_) {
     chosen_ = solver_->vessel(*named_);
-    chosen_.name = c_.coupling.vessel;
+    chosen_.name = scene_.coupling.vessel;
   } else if (!network_.screened->at_risk.empty()) {
     chosen_ = network_.screened->at_risk.front();
-  } else if (c_.coupling.events == 0) {
-    throw input::located(InputError("no vessel's wall is under tension", "coupling.vessel"), c_.resolved);
+  } else if (scene_.coupling.events == 0) {
+    throw input::located(InputError("no vessel's wall is under tension", "coupling.vessel"), scene_.resolved);
   }
   if (chosen_.radius > 0) {
-    risk_ =
-        screening::risk(screening_criterion(c_), std::midpoint(chosen_.pressure_from, chosen_.pressure_to),
-                        chosen_.wall_thickness / chosen_.radius, {chosen_.strength_factor, 1});
+    risk_ = screening::risk(screening_.criterion, std::midpoint(chosen_.pressure_from, chosen_.pressure_to),
+                            chosen_.wall_thickness / chosen_.radius, {chosen_.strength_factor, 1});
   }
-  at_rest_ = c_.coupling.events > 0 && c_.coupling.screens() && !(risk_ > c_.coupling.risk_limit);
+  at_rest_ = scene_.coupling.events > 0 && scene_.coupling.screens() && !(risk_ > scene_.coupling.risk_limit);
 }
 
-Configuration NetworkCoupling::with_wall() {
-  Configuration c = c_;
-  with_place(c_, [&] {
-    coupled_.emplace(c.coupling, flow_problem(c_, cascade_), c.vessel.discharge_coefficient, *solver_,
-                     network_.solution.display, chosen_, comm_, c.warnings);
-    coupled_->extract_wall(c.vessel);
+VesselScene NetworkCoupling::make_vessel() {
+  VesselScene vessel = vessel_of(scene_);
+  with_place(scene_, [&] {
+    coupled_.emplace(scene_.coupling, problem_, vessel.vessel.discharge_coefficient, *solver_,
+                     network_.solution.display, chosen_, reading_.comm, vessel.warnings);
+    coupled_->extract_wall(vessel.vessel);
   });
-  resolve_coupled_wall(c, comm_);
-  with_place(c_, [&] { coupled_->set_windows(c.wall->parameters, c.wall->time.step, c.warnings); });
-  return c;
+  resolve_coupled_wall(vessel, reading_);
+  with_place(scene_, [&] {
+    coupled_->set_windows(vessel.wall->parameters, vessel.wall->time.step, vessel.warnings);
+  });
+  return vessel;
 }
 
 void NetworkCoupling::write(const output::ResultsFolder& folder) {
-  studies::write_network(network_files_plan(c_), network_, folder, comm_);
+  studies::write_network(network_files_plan(scene_, scene_.network, scene_.output), network_, folder,
+                         reading_.comm);
 }
 
 void NetworkCoupling::open(const output::ResultsFolder& folder) {
@@ -95,7 +95,7 @@ void NetworkCoupling::open(const output::ResultsFolder& folder) {
 
 void NetworkCoupling::save(output::CheckpointWriter& file) const {
   coupled_->save(file, flow().inflow);
-  if (cascade_ != nullptr) studies::save_cascade(*cascade_, comm_, file);
+  if (cascade_ != nullptr) studies::save_cascade(*cascade_, reading_.comm, file);
 }
 
 void NetworkCoupling::restore(output::CheckpointReader& file, double time_s,

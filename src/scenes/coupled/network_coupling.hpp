@@ -4,7 +4,7 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -12,7 +12,7 @@
 #include "output/checkpoint.hpp"
 #include "output/results_folder.hpp"
 #include "runtime/console.hpp"
-#include "scenes/configuration.hpp"
+#include "scenes/coupled/coupled_scene.hpp"
 #include "studies/cascade/cascade_state.hpp"
 #include "studies/flow/solved_network.hpp"
 
@@ -22,7 +22,7 @@ class NetworkCoupling {
  public:
   /// Solves the network and chooses its vessel: in a cascade with what the events so far left of it, else
   /// `cascade` is null; it must live on. Nothing is written. Collective. Throws InputError and RunError.
-  NetworkCoupling(const Configuration& c, const studies::CascadeState* cascade, parallel::Communicator comm,
+  NetworkCoupling(const CoupledScene& scene, const studies::CascadeState* cascade, const Reading& reading,
                   runtime::Console& console);
 
   /// No vessel's risk is above the cascade's limit: there is nothing to simulate.
@@ -32,9 +32,9 @@ class NetworkCoupling {
   double risk() const { return risk_; }  ///< of that vessel (studies/screening/screening.hpp)
   const hemodynamics::NetworkFlow& flow() const { return network_.flow(); }
 
-  /// The configuration with that vessel, its load and its wall, resolved; `coupled()` is there from then on.
+  /// That vessel as a scene, with its load and its wall, resolved; `coupled()` is there from then on.
   /// Collective. Throws InputError, complete with place.
-  Configuration with_wall();
+  VesselScene make_vessel();
   coupling::CoupledVessel& coupled() { return *coupled_; }
   const coupling::CoupledVessel& coupled() const { return *coupled_; }
 
@@ -58,9 +58,11 @@ class NetworkCoupling {
   void find_named_vessel();
   void choose();
 
-  Configuration c_;
+  CoupledScene scene_;
   const studies::CascadeState* cascade_;
-  parallel::Communicator comm_;
+  Reading reading_;
+  hemodynamics::FlowProblem problem_;  ///< with what the events so far left
+  studies::ScreeningPlan screening_;
   std::unique_ptr<hemodynamics::FlowSolver> solver_;
   studies::SolvedNetwork network_;
   std::optional<std::int64_t> named_;  ///< number of coupling.vessel, where it is named

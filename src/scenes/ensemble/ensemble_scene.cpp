@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How probably a vessel ruptures, from many walls whose properties scatter.
+#include "scenes/ensemble/ensemble_scene.hpp"
+
 #include "input/catalogue.hpp"
 #include "input/description.hpp"
-#include "scenes/scene_input.hpp"
-#include "scenes/scenes.hpp"
+#include "scenes/ensemble/ensemble_run.hpp"
 #include "studies/ensemble/walls.hpp"
 
 namespace rhexis::scenes {
@@ -18,11 +18,21 @@ bool ensemble_sets(const std::string& key) {
          key == "time.step" || key == "time.allow_unstable";
 }
 
+/// Each rank simulates walls of its own.
+peridynamics::WallDemand demand_of(const EnsembleScene& s, const Reading& reading) {
+  constexpr double thickest = 3;  // standard deviations
+  return {.use = {.ranks = 1, .threads = parallel::thread_count(), .outputs = false},
+          .one_each = true,
+          .variation = 1 + thickest * s.ensemble.thickness_spread,
+          .only_checks = reading.only_checks};
+}
+
 }  // namespace
 
-ParameterList declare_ensemble_scene(Configuration& c) {
-  ParameterList all = ensemble::declare(c.ensemble);
-  for (Parameter& parameter : declare_wall(c)) {
+ParameterList declare(EnsembleScene& s) {
+  output::Parameters unused;  // an ensemble has none of its keys
+  ParameterList all = ensemble::declare(s.ensemble);
+  for (Parameter& parameter : declare_wall(s.vessel, unused)) {
     if (parameter.key == "load.schedule") {
       parameter.choices = input::choices_of(parameter);
       std::erase(parameter.choices, name_of(peridynamics::Schedule::table));
@@ -32,12 +42,17 @@ ParameterList declare_ensemble_scene(Configuration& c) {
   return all;
 }
 
-void resolve_ensemble_scene(Configuration& c, parallel::Communicator comm) {
-  ensemble::resolve(c.ensemble);
-  make_wall(c, comm);  // the mean one
-  const auto warnings = ensemble::check_walls(c.ensemble, c.wall->parameters);
-  c.warnings.insert(c.warnings.end(), warnings.begin(), warnings.end());
-  warn_of_an_unfinished_ramp(c);
+void resolve(EnsembleScene& s, const Reading& reading) {
+  ensemble::resolve(s.ensemble);
+  s.wall = make_wall(s, s.vessel, demand_of(s, reading), {}, reading);
+  append(s.warnings, ensemble::check_walls(s.ensemble, s.wall->parameters));
+  warn_of_an_unfinished_ramp(s, s.vessel);
+}
+
+output::FolderPlan folder_plan(const EnsembleScene& s, const runtime::RunOptions& options) {
+  output::FolderPlan plan = plan_of_folder(s, options, {});
+  plan.writes.names = {"run.json", samples_name, probability_name};
+  return plan;
 }
 
 }  // namespace rhexis::scenes

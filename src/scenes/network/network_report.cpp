@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a network's run says of itself: at its start, at its end, and in run.json.
+#include "scenes/network/network_report.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/format.hpp"
-#include "scenes/network/network_run.hpp"
 
 namespace rhexis::scenes {
 namespace {
@@ -20,93 +20,79 @@ std::string percent(double relative) {
   return relative == 0 ? "0" : fmt::format("{:.1e}", relative);
 }
 
-}  // namespace
-
-void NetworkRun::print_header() {
-  const hemodynamics::Parameters& h = c_.hemodynamics;
-  session_.print_title();
-  session_.warn(c_.warnings);
-  session_.console().item("network", solver_->description());
-  session_.console().item(
-      "blood",
-      h.viscosity.law == hemodynamics::ViscosityLaw::constant
-          ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
-          : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}", name_of(h.viscosity.law),
-                        quantity(h.viscosity.plasma, "Pa s"), h.viscosity.haematocrit,
-                        h.phase_separation ? ", dividing at bifurcations" : ""));
-  session_.print_surroundings();
-}
-
-void NetworkRun::print_summary() {
-  const hemodynamics::NetworkSolution& solution = network_.solution;
-  const hemodynamics::NetworkFlow& s = solution.flow;
-  session_.console().line("Done.");
-  if (solution.statistics) {
-    session_.console().line(
-        "  generation     vessels  mean radius  flow each       arteries      veins     hoop stress");
-    for (const auto& g : solution.statistics->generations) {
-      // The first, the last, and every so many in between.
-      const auto count = static_cast<int>(solution.statistics->generations.size());
-      if (g.generation % ((count + 11) / 12) != 0 && g.generation != count - 1) continue;
-      session_.console().line(
-          fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}", g.generation,
-                      grouped(2 * static_cast<long long>(g.vessels)), quantity(g.radius[0].mean, "m", 3),
-                      quantity(g.flow.mean * 6e4, "L/min", 3), g.pressure[0].mean / 133.322387415,
-                      g.pressure[1].mean / 133.322387415, quantity(g.hoop_stress[0].mean, "Pa", 3)));
-    }
-  }
-  session_.console().item("network",
-                          fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));
-  session_.console().item(
-      "inflow", fmt::format("{}; Reynolds numbers up to {:.3g}", flow_text(s.inflow), s.highest_reynolds));
-  session_.console().item("pressure",
-                          fmt::format("from {} to {}", mmhg(s.highest_pressure), mmhg(s.lowest_pressure)));
-  if (s.volume) {
-    session_.console().item("blood", fmt::format("{:.4g} mL in all vessels, wall surface {:.4g} m2",
-                                                 *s.volume * 1e6, *s.surface));
-  }
-  if (s.max_imbalance) {
-    session_.console().item("conserved",
-                            fmt::format("to {} of the inflow at worst", percent(*s.max_imbalance)));
-  }
-  session_.console().item(
-      "solver", s.iterations ? fmt::format("{}, {} iterations", s.solver, *s.iterations) : s.solver);
-  if (s.haematocrit_iterations) {
-    session_.console().item("haematocrit",
-                            fmt::format("fixed point after {} iterations", *s.haematocrit_iterations));
-  }
-  for (const hemodynamics::NetworkVessel& q : solution.queries) {
-    session_.console().item(
-        "vessel",
-        fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name, network::name_of(q.kind),
-                    q.generation < 0 ? "" : fmt::format(", generation {}", q.generation),
-                    quantity(q.radius, "m"), quantity(q.length, "m"), flow_text(q.flow),
-                    mmhg(q.pressure_from), mmhg(q.pressure_to)));
-  }
-  print_screening();
-  session_.console().item(
-      "shown", fmt::format("{} of {} vessels", grouped(solution.display.shown), grouped(s.vessels)));
-  session_.print_cost(session_.performance());
-}
-
-void NetworkRun::print_screening() {
-  if (!network_.screened) return;
-  const screening::Screening& s = network_.screened->screening;
-  session_.console().item(
-      "at risk",
-      fmt::format("{} strained beyond their critical stretch{}", grouped(static_cast<long long>(s.above)),
-                  s.top.empty() ? "" : "; highest risk (strain over critical stretch):"));
+void print_screening(runtime::Console& console, const studies::SolvedNetwork& network) {
+  if (!network.screened) return;
+  const screening::Screening& s = network.screened->screening;
+  console.item("at risk", fmt::format("{} strained beyond their critical stretch{}",
+                                      grouped(static_cast<long long>(s.above)),
+                                      s.top.empty() ? "" : "; highest risk (strain over critical stretch):"));
   constexpr std::size_t most_said = 5;
   for (std::size_t i = 0; i < std::min(s.top.size(), most_said); ++i) {
-    const hemodynamics::NetworkVessel& q = network_.screened->at_risk[i];
-    session_.console().line(fmt::format(
+    const hemodynamics::NetworkVessel& q = network.screened->at_risk[i];
+    console.line(fmt::format(
         "  {:>10.3f}  {}{}, radius {}, wall {}, {} to {}{}", s.top[i].risk, q.name,
         q.generation < 0 ? "" : fmt::format(" (generation {})", q.generation), quantity(q.radius, "m", 3),
         quantity(q.wall_thickness, "m", 3), mmhg(q.pressure_from), mmhg(q.pressure_to),
         s.top[i].alike > 1 ? fmt::format(", one of {} alike", grouped(static_cast<long long>(s.top[i].alike)))
                            : ""));
   }
-  if (s.top.size() > most_said) session_.console().line(fmt::format("  {:>10}  in screening.csv", "more"));
+  if (s.top.size() > most_said) console.line(fmt::format("  {:>10}  in screening.csv", "more"));
+}
+
+}  // namespace
+
+void print_network(runtime::Console& console, const hemodynamics::FlowSolver& solver,
+                   const hemodynamics::Parameters& h) {
+  console.item("network", solver.description());
+  console.item("blood", h.viscosity.law == hemodynamics::ViscosityLaw::constant
+                            ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
+                            : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}",
+                                          name_of(h.viscosity.law), quantity(h.viscosity.plasma, "Pa s"),
+                                          h.viscosity.haematocrit,
+                                          h.phase_separation ? ", dividing at bifurcations" : ""));
+}
+
+void print_solution(runtime::Console& console, const studies::SolvedNetwork& network) {
+  const hemodynamics::NetworkSolution& solution = network.solution;
+  const hemodynamics::NetworkFlow& s = solution.flow;
+  if (solution.statistics) {
+    console.line(
+        "  generation     vessels  mean radius  flow each       arteries      veins     hoop stress");
+    for (const auto& g : solution.statistics->generations) {
+      // The first, the last, and every so many in between.
+      const auto count = static_cast<int>(solution.statistics->generations.size());
+      if (g.generation % ((count + 11) / 12) != 0 && g.generation != count - 1) continue;
+      console.line(fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}",
+                               g.generation, grouped(2 * static_cast<long long>(g.vessels)),
+                               quantity(g.radius[0].mean, "m", 3), quantity(g.flow.mean * 6e4, "L/min", 3),
+                               g.pressure[0].mean / 133.322387415, g.pressure[1].mean / 133.322387415,
+                               quantity(g.hoop_stress[0].mean, "Pa", 3)));
+    }
+  }
+  console.item("network", fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));
+  console.item("inflow",
+               fmt::format("{}; Reynolds numbers up to {:.3g}", flow_text(s.inflow), s.highest_reynolds));
+  console.item("pressure", fmt::format("from {} to {}", mmhg(s.highest_pressure), mmhg(s.lowest_pressure)));
+  if (s.volume) {
+    console.item("blood", fmt::format("{:.4g} mL in all vessels, wall surface {:.4g} m2", *s.volume * 1e6,
+                                      *s.surface));
+  }
+  if (s.max_imbalance) {
+    console.item("conserved", fmt::format("to {} of the inflow at worst", percent(*s.max_imbalance)));
+  }
+  console.item("solver", s.iterations ? fmt::format("{}, {} iterations", s.solver, *s.iterations) : s.solver);
+  if (s.haematocrit_iterations) {
+    console.item("haematocrit", fmt::format("fixed point after {} iterations", *s.haematocrit_iterations));
+  }
+  for (const hemodynamics::NetworkVessel& q : solution.queries) {
+    console.item("vessel", fmt::format("{} ({}{}): radius {}, length {}, {} from {} to {}", q.name,
+                                       network::name_of(q.kind),
+                                       q.generation < 0 ? "" : fmt::format(", generation {}", q.generation),
+                                       quantity(q.radius, "m"), quantity(q.length, "m"), flow_text(q.flow),
+                                       mmhg(q.pressure_from), mmhg(q.pressure_to)));
+  }
+  print_screening(console, network);
+  console.item("shown", fmt::format("{} of {} vessels", grouped(solution.display.shown), grouped(s.vessels)));
 }
 
 }  // namespace rhexis::scenes

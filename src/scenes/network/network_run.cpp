@@ -1,60 +1,93 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scenes/network/network_run.hpp"
 
-#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "core/error.hpp"
 #include "core/stopwatch.hpp"
-#include "scenes/folder_plan.hpp"
-#include "scenes/network/flow_scene.hpp"
-#include "scenes/pictures.hpp"
+#include "runtime/run_session.hpp"
+#include "scenes/network/network_report.hpp"
+#include "scenes/results.hpp"
+#include "studies/flow/solved_network.hpp"
 
 namespace rhexis::scenes {
+namespace {
 
-NetworkRun::NetworkRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm)
-    : c_(std::move(configuration)),
-      comm_(comm),
-      session_(scene_of(c_), std::move(options), comm,
-               {[this] { return output::Values(results_); },
-                [this] { return runtime::Work{.network_flop = network_.flow().flop}; }}) {
-  if (!session_.options().restart.empty())
-    throw InputError("--restart is for scenes with a wall, scene.model = \"vessel\" or \"coupled\"");
-}
-
-runtime::Ending NetworkRun::run() {
-  session_.open_folder(folder_plan(c_, session_.options()));
-  solver_ = prepared_solver(c_, comm_);
-  const runtime::Ending ending = session_.recorded([&] {
-    session_.start_pictures();
-    session_.open_record();
-    print_header();
-    solve();
-    {
-      const Stopwatch watch(session_.spent().output);
-      studies::write_network(network_files_plan(c_), network_, session_.folder(), comm_);
-    }
-    draw();
-    return 0;
-  });
-  print_summary();
-  return ending;
-}
-
-void NetworkRun::solve() {
-  const Stopwatch watch(session_.spent().solve);
-  network_ = studies::solve_network(
-      *solver_, flow_problem(c_), screening_plan(c_),
-      [&](const std::string& text) { session_.console().line(text); }, comm_);
-  session_.warn(network_.solution.warnings);
-  results_.network = studies::network_record(&network_);
-}
-
-void NetworkRun::draw() {
-  if (session_.pictures()->pipeline && network_.solution.display.shown > 0) {
-    const Stopwatch watch(session_.spent().insitu);
-    session_.pictures()->process({.particles = nullptr, .network = &network_.solution.display.lines});
+class NetworkRun {
+ public:
+  NetworkRun(NetworkScene scene, const runtime::RunOptions& options, parallel::Communicator comm)
+      : scene_(std::move(scene)),
+        comm_(comm),
+        session_(describe(scene_, scene_.pictures, scene_.output), options, comm,
+                 {[this] { return output::Values(results_); },
+                  [this] { return runtime::Work{.network_flop = network_.flow().flop}; }}) {
+    if (session_.restarts())
+      throw InputError("--restart is for scenes with a wall, scene.model = \"vessel\" or \"coupled\"");
   }
-  session_.finish_pictures();
+
+  runtime::Ending run() {
+    session_.open_folder(folder_plan(scene_, session_.options()));
+    solver_ =
+        with_place(scene_, [&] { return hemodynamics::prepared_solver(scene_.network.problem, comm_); });
+    const runtime::Ending ending = session_.recorded([&] {
+      session_.start_pictures();
+      session_.open_record();
+      print_header();
+      solve();
+      store();
+      draw();
+      return 0;
+    });
+    session_.console().line("Done.");
+    print_solution(session_.console(), network_);
+    session_.print_cost(session_.performance());
+    return ending;
+  }
+
+ private:
+  void print_header() {
+    session_.print_title();
+    session_.warn(scene_.warnings);
+    print_network(session_.console(), *solver_, scene_.network.problem.blood);
+    session_.print_surroundings();
+  }
+
+  void solve() {
+    const Stopwatch watch(session_.spent().solve);
+    network_ = studies::solve_network(
+        *solver_, scene_.network.problem, screening_plan(scene_.network),
+        [&](const std::string& text) { session_.console().line(text); }, comm_);
+    session_.warn(network_.solution.warnings);
+    results_.network = studies::network_record(&network_);
+  }
+
+  void store() {
+    const Stopwatch watch(session_.spent().output);
+    studies::write_network(network_files_plan(scene_, scene_.network, scene_.output), network_,
+                           session_.folder(), comm_);
+  }
+
+  void draw() {
+    if (session_.pictures()->pipeline && network_.solution.display.shown > 0) {
+      const Stopwatch watch(session_.spent().insitu);
+      session_.pictures()->process({.particles = nullptr, .network = &network_.solution.display.lines});
+    }
+    session_.finish_pictures();
+  }
+
+  NetworkScene scene_;
+  parallel::Communicator comm_;
+  Results results_;
+  runtime::RunSession session_;
+  std::unique_ptr<hemodynamics::FlowSolver> solver_;
+  studies::SolvedNetwork network_;
+};
+
+}  // namespace
+
+runtime::Ending run(NetworkScene scene, const runtime::RunOptions& options, parallel::Communicator comm) {
+  return NetworkRun(std::move(scene), options, comm).run();
 }
 
 }  // namespace rhexis::scenes

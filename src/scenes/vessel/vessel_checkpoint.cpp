@@ -12,7 +12,7 @@
 #include "parallel/together.hpp"
 #include "runtime/version.hpp"
 #include "scenes/checkpoint_input.hpp"
-#include "scenes/folder_plan.hpp"
+#include "scenes/vessel/vessel_files.hpp"
 #include "scenes/vessel/vessel_run.hpp"
 
 namespace rhexis::scenes {
@@ -75,7 +75,7 @@ void VesselRun::write_checkpoint(long step) {
   peridynamics::LoadState load = simulation_->load();
   const std::filesystem::path path = session_.folder().claim(checkpoint_name(step));
   output::CheckpointWriter file(path, runtime::version(), comm_);
-  write_input(file, c_);
+  write_input(file, c_, &c_.wall->parameters);
   file.write(step_name, std::int64_t{step});
   file.write("time_step", c_.wall->time.step);
   file.write("scheduled_pressure", simulation_->scheduled_pressure_at(step));
@@ -95,7 +95,7 @@ void VesselRun::write_checkpoint(long step) {
 
 /// Refuses the checkpoint of another body or time step; warns of another load.
 void VesselRun::compare_with(output::CheckpointReader& file) {
-  compare_input(file, c_, fmt::format("step {}", first_step_));
+  compare_input(file, c_, &c_.wall->parameters, fmt::format("step {}", first_step_));
   double time_step = 0, pressure = 0;
   file.read("time_step", time_step);
   if (time_step != c_.wall->time.step) {

@@ -18,8 +18,7 @@
 #include "peridynamics/simulation/equilibrium_start.hpp"
 #include "runtime/interrupt.hpp"
 #include "runtime/version.hpp"
-#include "scenes/folder_plan.hpp"
-#include "scenes/pictures.hpp"
+#include "scenes/vessel/vessel_files.hpp"
 
 namespace rhexis::scenes {
 namespace {
@@ -40,11 +39,11 @@ int signal_in(std::uint64_t flags) {
 
 }  // namespace
 
-VesselRun::VesselRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm,
+VesselRun::VesselRun(VesselScene scene, runtime::RunOptions options, parallel::Communicator comm,
                      NetworkCoupling* coupling)
-    : c_(std::move(configuration)),
+    : c_(std::move(scene)),
       comm_(comm),
-      session_(scene_of(c_), std::move(options), comm,
+      session_(describe(c_, c_.pictures, c_.output), std::move(options), comm,
                {[this] { return output::Values(results_); }, [this] { return work(); }}),
       coupling_(coupling) {}
 
@@ -103,7 +102,8 @@ void VesselRun::build() {
 
 void VesselRun::open_results() {
   const bool restarts = !session_.options().restart.empty();
-  if (restarts) session_.folder().will_write(files_of_steps(c_, first_step_, restarts));
+  if (restarts)
+    session_.folder().will_write(files_of_steps(c_.output, first_step_, c_.wall->time.count, restarts));
   session_.open_record(restarts ? std::optional<std::int64_t>(first_step_) : std::nullopt);
   const std::filesystem::path history = session_.folder().claim("history.csv");
   if (restarts) {
@@ -149,8 +149,9 @@ bool VesselRun::output_due(long step) const {
 
 bool VesselRun::pictures_due(long step, bool with_output) {
   if (!session_.pictures()->pipeline) return false;
-  const bool due =
-      c_.insitu.every_steps ? step % *c_.insitu.every_steps == 0 || step == c_.wall->time.count : with_output;
+  const bool due = c_.pictures.insitu.every_steps
+                       ? step % *c_.pictures.insitu.every_steps == 0 || step == c_.wall->time.count
+                       : with_output;
   // Scripts are asked last: the answer may need all ranks.
   return due && session_.pictures()->pipeline->wants(
                     step + session_.pictures()->steps_before,
@@ -363,6 +364,10 @@ void VesselRun::time_loop() {
     record_events(report);
     if (now + 1 < c_.wall->time.count) signal_ = signal_in(report.flags);  // after the last step it is done
   }
+}
+
+runtime::Ending run(VesselScene scene, const runtime::RunOptions& options, parallel::Communicator comm) {
+  return VesselRun(std::move(scene), options, comm).run();
 }
 
 }  // namespace rhexis::scenes

@@ -21,8 +21,8 @@ void print_risk(runtime::Console& console, const peridynamics::Parameters& vesse
 
 class VesselRun {
  public:
-  /// `coupling`: the network that the vessel is part of, which the configuration comes from.
-  VesselRun(Configuration configuration, runtime::RunOptions options, parallel::Communicator comm,
+  /// `coupling`: the network that the vessel is part of, which the scene comes from.
+  VesselRun(VesselScene scene, runtime::RunOptions options, parallel::Communicator comm,
             NetworkCoupling* coupling = nullptr);
   ~VesselRun();
 
@@ -63,7 +63,7 @@ class VesselRun {
   runtime::Work work() const;
   long step() const { return simulation_->step_number(); }
 
-  Configuration c_;
+  VesselScene c_;
   parallel::Communicator comm_;
   Results results_;
   runtime::RunSession session_;
@@ -80,5 +80,8 @@ class VesselRun {
   int signal_ = 0;  ///< that asks this run to end
   bool crushing_was_told_ = false, turbulence_was_told_ = false;
 };
+
+/// One vessel alone. Throws as VesselRun::run. Collective.
+runtime::Ending run(VesselScene scene, const runtime::RunOptions& options, parallel::Communicator comm);
 
 }  // namespace rhexis::scenes

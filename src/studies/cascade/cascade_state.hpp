@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,10 +36,18 @@ struct CascadeState {
   std::vector<std::uint32_t> simulated;  ///< numbers of the vessels, whether they ruptured or held
   double elapsed = 0;                    ///< s, simulated in all events
   std::int64_t steps_before = 0;         ///< of all events, for the numbers of pictures
+
+  /// Takes up an event that simulated `seconds` in `steps`, and what it left of the network, where its vessel
+  /// ruptured.
+  void record(CascadeEvent event, const std::optional<hemodynamics::VesselFailure>& failure, double seconds,
+              std::int64_t steps);
 };
 
 /// Event `number`, from 1 on, as run.json has it.
 nlohmann::ordered_json to_json(const CascadeEvent& event, std::size_t number);
+
+/// cascade.csv: a row for each event.
+std::string cascade_table(const std::vector<CascadeEvent>& events);
 
 /// The name by which a checkpoint holds the state.
 inline constexpr const char* cascade_name = "cascade";

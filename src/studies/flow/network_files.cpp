@@ -11,6 +11,14 @@
 namespace rhexis::studies {
 namespace {
 
+constexpr const char* lines_name = "network";  ///< without an ending
+constexpr const char* vtp_name = "network.vtp";
+constexpr const char* generations_name = "generations.csv";
+constexpr const char* histograms_name = "histograms.csv";
+constexpr const char* vessels_name = "vessels.csv";
+constexpr const char* screening_name = "screening.csv";
+constexpr const char* risks_name = "risk_histograms.csv";
+
 void write_tables(const SolvedNetwork& network, const output::ResultsFolder& folder,
                   parallel::Communicator comm) {
   parallel::together(comm, [&] {
@@ -20,15 +28,15 @@ void write_tables(const SolvedNetwork& network, const output::ResultsFolder& fol
     };
     const hemodynamics::NetworkSolution& solution = network.solution;
     if (solution.statistics) {
-      write("generations.csv", generation_table(*solution.statistics));
-      write("histograms.csv", histogram_table(*solution.statistics));
+      write(generations_name, generation_table(*solution.statistics));
+      write(histograms_name, histogram_table(*solution.statistics));
     }
     if (network.screened) {
-      write("screening.csv", screening_table(*network.screened));
-      write("risk_histograms.csv", risk_table(network.screened->screening));
+      write(screening_name, screening_table(*network.screened));
+      write(risks_name, risk_table(network.screened->screening));
     }
     if (!solution.table.empty()) {
-      write("vessels.csv", vessel_table(solution.table));
+      write(vessels_name, vessel_table(solution.table));
     }
   });
 }
@@ -64,7 +72,7 @@ void write_vtp(hemodynamics::VesselLines& lines, const output::ResultsFolder& fo
   for (const char* name : {"flow", "wall_shear_stress", "hoop_strain", "haematocrit", "vessel"}) {
     cells.push_back({name, values(name)});
   }
-  output::TemporaryFile file(folder.claim_on_root("network.vtp"));
+  output::TemporaryFile file(folder.claim_on_root(vtp_name));
   network::write_vtp_network(file.name(), graph, points, cells);
   file.put_in_place();
 }
@@ -79,13 +87,14 @@ void write_lines(const NetworkFilesPlan& files, hemodynamics::NetworkSolution& s
   const auto fields = solution.display.lines.fields();
   output::LineSeriesPlan plan;
   plan.directory = folder.path();
+  plan.basename = lines_name;
   plan.title = files.title;
   plan.version = files.version;
   plan.fields.assign(fields.begin(), fields.end());
   plan.steps = {0};
   plan.precision = Precision::double_precision;
   plan.formats = files.formats;
-  for (const std::string& name : output::series_files("network", plan.formats)) folder.claim(name);
+  for (const std::string& name : output::series_files(lines_name, plan.formats)) folder.claim(name);
   output::LineSeries(plan, solution.display.lines, comm).write(solution.display.lines);
   if (!files.vtp) return;
   parallel::together(comm, [&] {
@@ -94,6 +103,23 @@ void write_lines(const NetworkFilesPlan& files, hemodynamics::NetworkSolution& s
 }
 
 }  // namespace
+
+std::vector<std::string> network_file_names(const NetworkFilesPlan& plan,
+                                            const hemodynamics::FlowProblem& problem, bool screens) {
+  std::vector<std::string> names = output::series_files(lines_name, plan.formats);
+  const bool is_implicit = problem.network.resolved_tier() == network::Tier::implicit_tree;
+  if (is_implicit && problem.network.statistics) {
+    names.emplace_back(generations_name);
+    names.emplace_back(histograms_name);
+  }
+  if (!is_implicit) names.emplace_back(vessels_name);
+  if (screens) {
+    names.emplace_back(screening_name);
+    names.emplace_back(risks_name);
+  }
+  if (plan.vtp) names.emplace_back(vtp_name);
+  return names;
+}
 
 void write_network(const NetworkFilesPlan& plan, SolvedNetwork& network, const output::ResultsFolder& folder,
                    parallel::Communicator comm) {

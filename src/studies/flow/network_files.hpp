@@ -18,6 +18,11 @@ struct NetworkFilesPlan {
   bool vtp = false;  ///< network.vtp besides
 };
 
+/// The names of the files that `write_network` makes of the problem's solution. `screens`: its vessels are
+/// screened.
+std::vector<std::string> network_file_names(const NetworkFilesPlan& plan,
+                                            const hemodynamics::FlowProblem& problem, bool screens);
+
 /// generations.csv, histograms.csv, screening.csv, risk_histograms.csv, vessels.csv (what there is of them),
 /// network.xdmf and .h5, network.vtkhdf, network.vtp. Collective. Throws InputError (a file in the way) and
 /// RunError.

@@ -2,7 +2,7 @@
 /// A network's flow in run.json.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "studies/flow/solved_network.hpp"
 

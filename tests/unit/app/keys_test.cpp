@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "app/configuration.hpp"
+#include "app/scene_keys.hpp"
 #include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/values.hpp"
@@ -14,19 +15,26 @@
 namespace rhexis::app {
 namespace {
 
+Configuration read_file(const std::string& file, const std::vector<std::string>& overrides) {
+  scenes::Reading reading{.comm = parallel::Communicator::world()};
+  return read_configuration(file, overrides, reading);
+}
+
+Configuration read_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const test::TemporaryDirectory folder;
+  const std::string file = (folder / "scene.toml").string();
+  if (parallel::Communicator::world().is_root()) std::ofstream(file) << text;
+  return read_file(file, overrides);
+}
+
 /// The warnings of an input of this text.
 std::vector<std::string> warnings_of(const std::string& text,
                                      const std::vector<std::string>& overrides = {}) {
-  const test::TemporaryDirectory folder;
-  const std::string file = (folder / "scene.toml").string();
-  const auto world = parallel::Communicator::world();
-  if (world.is_root()) std::ofstream(file) << text;
-  return read_configuration(file, overrides, world).warnings;
+  return input_of(read_text(text, overrides)).warnings;
 }
 
 std::vector<std::string> warnings_of_input(const std::string& name, const std::string& override) {
-  return read_configuration(RHEXIS_SOURCE_DIR "/inputs/" + name, {override}, parallel::Communicator::world())
-      .warnings;
+  return input_of(read_file(RHEXIS_SOURCE_DIR "/inputs/" + name, {override})).warnings;
 }
 
 /// One warning, of `key` and with `why`.
@@ -63,8 +71,8 @@ outlet_pressure = "5 mmHg"
 )";
 
 TEST(Keys, DependOnOthersThatThereAreAndValuesThatTheseTake) {
-  Configuration c;
-  const ParameterList all = declare(c);
+  const AllKeys keys;
+  const ParameterList& all = keys.list();
   int dependent = 0;
   for (const Parameter& parameter : all) {
     dependent += parameter.only_with.empty() ? 0 : 1;
@@ -79,8 +87,8 @@ TEST(Keys, DependOnOthersThatThereAreAndValuesThatTheseTake) {
 }
 
 TEST(Keys, TakeTheirOwnDefaultsAsTheyAreShown) {
-  Configuration c;
-  const ParameterList all = declare(c);
+  const AllKeys keys;
+  const ParameterList& all = keys.list();
   for (const Parameter& parameter : all) {
     if (parameter.required || input::is_repeated(parameter)) continue;
     const input::Value shown = input::default_value(parameter);
@@ -170,11 +178,8 @@ TEST(Warnings, OfALoadThatIsBeyondAll) {
 }
 
 TEST(Risk, IsThatOfLamesHoopStrainAtTheLumen) {
-  const test::TemporaryDirectory folder;
-  const std::string file = (folder / "scene.toml").string();
-  const auto world = parallel::Communicator::world();
-  if (world.is_root()) std::ofstream(file) << vessel;
-  const peridynamics::SharedWall wall = read_configuration(file, {}, world).wall;
+  const Configuration c = read_text(vessel);
+  const peridynamics::SharedWall wall = std::get<scenes::VesselScene>(c).wall;
   const peridynamics::Parameters& v = wall->parameters;
   const double hoop = (2.0 * 2.0 + 1.5 * 1.5) / (2.0 * 2.0 - 1.5 * 1.5);  // over the pressure
   EXPECT_NEAR(scenes::risk_of_load(v).value(), 1e5 * (hoop + 0.25) / v.young_modulus / *v.critical_stretch,
