@@ -6,6 +6,7 @@
 
 #include <csignal>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "core/error.hpp"
