@@ -71,9 +71,9 @@ def measure(folder, case, seed):
     stretch, stiffness, law, length = case
     wall = []
 
-    def keep(moment):
-        points = numpy.subtract(moment["position"], moment["displacement"]).T
-        wall[:] = points, moment["damage"].copy()
+    def keep(particles, _):
+        points = numpy.subtract(particles["position"], particles["displacement"]).T
+        wall[:] = points, particles["damage"].copy()
 
     scatter = {"scatter.critical_stretch": stretch, "scatter.stiffness": stiffness, "scatter.law": law,
                "scatter.correlation_length": f"{length} mm", "scatter.seed": seed}

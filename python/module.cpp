@@ -11,8 +11,8 @@
 #include "app/commands.hpp"
 #include "core/error.hpp"
 #include "core/printable.hpp"
+#include "fields.hpp"
 #include "host.hpp"
-#include "moment.hpp"
 #include "runtime/guarded.hpp"
 #include "runtime/interrupt.hpp"
 #include "runtime/version.hpp"
@@ -126,19 +126,7 @@ PYBIND11_MODULE(_rhexis, module) {
       raise(run_error, error.what());
     }
   });
-  py::class_<Moment>(
-      module, "Moment",
-      "A vessel at one of its outputs, for as long as the call of `progress` lasts that gets it.\n\n"
-      "moment[name] is a field of this rank's n particles in SI units: an array [n], or a tuple of\n"
-      "three for x, y and z. Arrays are the solver's memory, read-only: keep copies.")
-      .def_property_readonly(
-          "step", [](const Moment& m) { return m.source().step(); }, "Number of the time step.")
-      .def_property_readonly(
-          "time_s", [](const Moment& m) { return m.source().time_s(); }, "Simulated time, s.")
-      .def_property_readonly("annotations", &Moment::annotations,
-                             "Numbers of the moment by name, in SI units: \"pressure\", Pa.")
-      .def_property_readonly("fields", &Moment::fields, "Names of the fields, with their units.")
-      .def("__getitem__", &Moment::values);
+  define_fields(module);
   module.attr("__version__") = rhexis::runtime::version();
   module.def("check", &check);
   module.def("run", &run);

@@ -20,9 +20,9 @@ import sys
 import tempfile
 
 from . import _rhexis
-from ._rhexis import InputError, Moment, RunError, __version__, rank
+from ._rhexis import InputError, Particles, RunError, Vessels, __version__, rank
 
-__all__ = ["InputError", "Moment", "RunError", "__version__", "check", "rank", "run"]
+__all__ = ["InputError", "Particles", "RunError", "Vessels", "__version__", "check", "rank", "run"]
 
 # Python sets last_type where it ends by an exception.
 atexit.register(lambda: _rhexis.end_mpi(hasattr(sys, "last_type")))
@@ -50,10 +50,12 @@ def run(file, overrides=None, *, output=None, restart=None, overwrite=False, qui
     restart    a checkpoint to go on from
     overwrite  replace files in the folder that no run made
     quiet      print errors only
-    progress   is called with a Moment at every output of a vessel (output.every_steps), on every rank: moment.step, moment.time_s,
-               moment.annotations["pressure"] (Pa), and its fields by name, such as moment["damage"] (an array of this rank's
-               particles) or moment["displacement"] (three arrays: x, y, z; m). The arrays are the solver's memory, read-only, and
-               end with the call: keep copies. What it raises ends the run, after a checkpoint, and comes out of here.
+    progress   is called as progress(particles, network) at every output of a vessel (output.every_steps), and of a network when it is
+               solved, on every rank. Either is None where the run has none. particles["damage"] is an array of this rank's particles,
+               particles["displacement"] three (x, y, z; m); network["flow"] is an array of its shown vessels (network.shown_vessels, m3/s),
+               network["pressure"] of their junctions (Pa). `fields` has all names with units, `step`, `time_s` and `annotations` (the
+               wall's "pressure", Pa) tell the moment. The arrays are the solver's memory, read-only, and end with the call: keep
+               copies. What it raises ends the run, of a vessel after a checkpoint, and comes out of here.
 
     Raises InputError (a ValueError) for a wrong input, before anything is written, and RunError (a RuntimeError) for a run that fails.
     Ctrl-C makes the run save its state in `output` and end; then KeyboardInterrupt is raised. The solution of a network goes on to its

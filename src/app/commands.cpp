@@ -185,14 +185,14 @@ nlohmann::ordered_json checked_values(const Command& command, parallel::Communic
   return values;
 }
 
-runtime::Ending run(const Command& command, parallel::Communicator comm, runtime::Observer observer) {
+runtime::Ending run(const Command& command, parallel::Communicator comm, runtime::OutputFunction on_output) {
   const double started = seconds_now();
   runtime::Console console(comm.is_root(), command.quiet);
   scenes::Reading reading = reading_for(command, comm, console);
   Configuration configuration = read_configuration(command.file, command.overrides, reading);
   runtime::RunOptions options = run_options(command);
   options.started = started;
-  options.observer = std::move(observer);
+  options.on_output = std::move(on_output);
   scenes::append(input_of(configuration).warnings, unfinished_runs(options, comm));
   return std::visit([&](auto& scene) { return scenes::run(std::move(scene), options, comm); }, configuration);
 }

@@ -36,7 +36,8 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm);
 nlohmann::ordered_json checked_values(const Command& command, parallel::Communicator comm);
 
 /// Runs what command.file describes. Collective. Throws InputError and RunError.
-runtime::Ending run(const Command& command, parallel::Communicator comm, runtime::Observer observer = {});
+runtime::Ending run(const Command& command, parallel::Communicator comm,
+                    runtime::OutputFunction on_output = {});
 
 /// Does what the command line asks for and returns the exit status: 0; 128 + signal after an interrupt (as
 /// shells have it); 3 where nothing was asked for but text, and it could not be written. Throws InputError

@@ -9,24 +9,24 @@
 #include <string>
 #include <vector>
 
-#include "core/field_view.hpp"
+#include "insitu/pipeline.hpp"
 #include "output/results_folder.hpp"
 
 namespace rhexis::runtime {
 
 struct Pictures;
 
-/// Is shown a vessel at each of its outputs, on all ranks. A RunError that it throws on all ranks ends the
-/// run.
-using Observer = std::function<void(PointSource&)>;
+/// Is shown what a run has at each of its outputs, on all ranks. A RunError that it throws on all ranks ends
+/// the run.
+using OutputFunction = std::function<void(const insitu::Channels&)>;
 
 struct RunOptions {
   std::filesystem::path directory;
   std::filesystem::path restart;  ///< checkpoint; empty: from the start
   bool overwrite = false;         ///< files in the folder of results that no run made
   bool quiet = false;
-  bool embedded = false;   ///< in another program (Python), which goes on when the run has ended
-  Observer observer = {};  ///< may be empty
+  bool embedded = false;          ///< in another program (Python), which goes on when the run has ended
+  OutputFunction on_output = {};  ///< may be empty
   std::vector<std::string> command = {};    ///< as it was called
   double started = 0;                       ///< s, of the clock
   std::shared_ptr<Pictures> pictures = {};  ///< of the runs that this one is one of; null: it has its own

@@ -85,24 +85,45 @@ class Python(unittest.TestCase):
         self.assertEqual((self.folder / "program/history.csv").read_text(), (self.folder / "python/history.csv").read_text())
         self.assertEqual(list(self.folder.rglob("*.png")), [])
 
-    def test_networks_and_ensembles(self):
-        network = rhexis.run(SOURCE / "inputs/cvdt_30.toml", output=self.folder)
-        self.assertEqual(network["network"]["vessels"], 30)
+    def test_an_ensemble(self):
         ensemble = rhexis.run(SOURCE / "inputs/rupture_probability.toml", {"ensemble.samples": 1, "ensemble.pressure_count": 2, "time.end": "3 us"})
         self.assertEqual(ensemble["ensemble"]["samples"], 2)
+
+    def test_progress_sees_a_network(self):
+        seen = []
+
+        def progress(particles, network):
+            self.assertIsNone(particles)
+            ends, pressure, flow = network.connectivity, network["pressure"], network["flow"]
+            self.assertFalse(ends.flags.writeable or pressure.flags.owndata)
+            self.assertEqual((ends.shape, flow.shape, network.fields["flow"]), ((30, 2), (30,), "m3/s"))
+            seen.append(float(((pressure[ends[:, 0]] - pressure[ends[:, 1]]) * flow).min()))
+
+        results = rhexis.run(SOURCE / "inputs/cvdt_30.toml", output=self.folder, progress=progress)
+        self.assertEqual(results["network"]["vessels"], 30)
+        self.assertEqual(len(seen), 1)
+        self.assertGreater(seen[0], 0, "blood flows down the pressure in every vessel")
+
+    def test_progress_sees_both(self):
+        both = []
+        rhexis.run(SOURCE / "inputs/two_way.toml", {"time.end": "20 us", "output.every_steps": 100000},
+                   progress=lambda particles, network: both.append((particles["damage"].size, network["pressure"].size)))
+        self.assertEqual(len(both), 2)
+        self.assertTrue(min(both[0]) > 0)
 
     def test_progress_sees_the_solver(self):
         seen = []
 
-        def progress(moment):
-            u = moment["displacement"]
+        def progress(particles, network):
+            self.assertIsNone(network)
+            u = particles["displacement"]
             self.assertFalse(u[0].flags.owndata or u[0].flags.writeable)
-            self.assertEqual(moment["damage"].shape, u[2].shape)
-            self.assertEqual(moment.fields, {"position": "m", "displacement": "m", "velocity": "m s-1", "force_density": "N m-3",
+            self.assertEqual(particles["damage"].shape, u[2].shape)
+            self.assertEqual(particles.fields, {"position": "m", "displacement": "m", "velocity": "m s-1", "force_density": "N m-3",
                                              "strain_energy_density": "J m-3", "damage": "1"})
             self.assertEqual(rhexis.rank(), 0)
             largest = numpy.sqrt(sum(component**2 for component in u)).max()
-            seen.append((moment.step, moment.time_s, moment.annotations["pressure"], float(largest)))
+            seen.append((particles.step, particles.time_s, particles.annotations["pressure"], float(largest)))
 
         results = rhexis.run(VESSEL, SHORT, progress=progress)
         self.assertEqual([step for step, *_ in seen], list(range(0, results["steps"] + 1, 2)))
@@ -113,20 +134,20 @@ class Python(unittest.TestCase):
     def test_progress_that_raises_or_keeps_memory_ends_the_run(self):
         kept = []
         with self.assertRaisesRegex(ZeroDivisionError, "division"):
-            rhexis.run(VESSEL, SHORT, output=self.folder, progress=lambda moment: 1 / 0)
+            rhexis.run(VESSEL, SHORT, output=self.folder, progress=lambda particles, network: 1 / 0)
         self.assertIn("progress raised ZeroDivisionError: division by zero", json.loads((self.folder / "run.json").read_text())["status"])
         with self.assertRaisesRegex(ValueError, "copies"):
-            rhexis.run(VESSEL, SHORT, progress=lambda moment: kept.append(moment["damage"]))
+            rhexis.run(VESSEL, SHORT, progress=lambda particles, network: kept.append(particles["damage"]))
         kept.clear()
         with self.assertRaisesRegex(ValueError, "copies"):
-            rhexis.run(VESSEL, SHORT, progress=kept.append)
+            rhexis.run(VESSEL, SHORT, progress=lambda particles, network: kept.append(particles))
         with self.assertRaisesRegex(rhexis.RunError, "has passed"):
             kept[0]["damage"]
         with self.assertRaises(KeyError):
-            rhexis.run(VESSEL, SHORT, progress=lambda moment: moment["damge"])
+            rhexis.run(VESSEL, SHORT, progress=lambda particles, network: particles["damge"])
         with self.assertRaisesRegex(rhexis.RunError, "one at a time"):
-            rhexis.run(VESSEL, SHORT, progress=lambda moment: rhexis.check(VESSEL))
-        self.assertEqual(rhexis.run(VESSEL, SHORT, progress=lambda moment: kept.append(moment["damage"].copy()))["steps"], 2 * len(kept[1:]) - 2)
+            rhexis.run(VESSEL, SHORT, progress=lambda *_: rhexis.check(VESSEL))
+        self.assertEqual(rhexis.run(VESSEL, SHORT, progress=lambda particles, network: kept.append(particles["damage"].copy()))["steps"], 2 * len(kept[1:]) - 2)
 
     def test_ctrl_c_saves_the_run(self):
         """In this process: the handler is Python's again afterwards, and the next run is not interrupted."""
@@ -176,7 +197,7 @@ class Python(unittest.TestCase):
             state = lambda: ([signal.getsignal(s) for s in signal.valid_signals()], openmp.omp_get_max_threads(), os.getcwd(),
                              {line for line in subprocess.check_output(["env"], text=True).splitlines() if "OMPI_MCA_sharedfp" not in line})
             import_only = state()
-            rhexis.run(VESSEL, SHORT, progress=lambda moment: print(openmp.omp_get_max_threads()))
+            rhexis.run(VESSEL, SHORT, progress=lambda *_: print(openmp.omp_get_max_threads()))
             assert state() == import_only, (state(), import_only)
             """)
 
@@ -205,7 +226,7 @@ class Python(unittest.TestCase):
 
     def test_one_rank_that_raises_ends_all(self):
         progress = """
-            def progress(moment):
+            def progress(particles, network):
                 if rhexis.rank() == 1:
                     raise KeyError("only here")
             try:

@@ -36,7 +36,7 @@ class NetworkRun {
       print_header();
       solve();
       store();
-      draw();
+      show();
       return 0;
     });
     session_.console().line("Done.");
@@ -68,10 +68,12 @@ class NetworkRun {
                            session_.folder(), comm_);
   }
 
-  void draw() {
-    if (session_.pictures()->pipeline && network_.solution.display.shown > 0) {
+  void show() {
+    if (network_.solution.display.shown > 0) {
+      const insitu::Channels channels{.particles = nullptr, .network = &network_.solution.display.lines};
+      if (session_.options().on_output) session_.options().on_output(channels);
       const Stopwatch watch(session_.spent().insitu);
-      session_.pictures()->process({.particles = nullptr, .network = &network_.solution.display.lines});
+      if (session_.pictures()->pipeline) session_.pictures()->process(channels);
     }
     session_.finish_pictures();
   }

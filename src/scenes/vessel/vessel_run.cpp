@@ -209,7 +209,9 @@ void VesselRun::observe(long step, bool with_output, bool with_pictures) {
                       static_cast<long>(t.broken_bonds), t.kinetic, t.strain, t.external_work,
                       t.rupture_length, leak, t.fracture, open_area});
   }
-  if (with_output && session_.options().observer) session_.options().observer(*source_);
+  if (with_output && session_.options().on_output)
+    session_.options().on_output(
+        {.particles = &*source_, .network = coupling_ != nullptr ? &coupling_->lines() : nullptr});
   if (with_output && series_) {
     const Stopwatch watch(session_.spent().output);
     series_->write(*source_);
