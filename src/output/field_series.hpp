@@ -41,7 +41,7 @@ class FieldSeries {
   /// Stores the fields of a moment, each by `view_of`, and lists it. Does not wait for the disk but after the
   /// last step of the plan, or one that is not in it; a failure there is thrown by the next call. A step that
   /// was not planned displaces an earlier such step.
-  void write(const Moment& moment, const std::function<FieldView(const StoredField&)>& view_of);
+  void write(const SeriesStep& moment, const std::function<FieldView(const StoredField&)>& view_of);
 
   /// Waits until the step that was written last is on the disk; one that cannot get there is listed no
   /// longer.
@@ -58,7 +58,7 @@ class FieldSeries {
 
   /// On the root: stores what else belongs to a step; what is returned makes it the `entry`th of the list.
   /// That is called from another thread, once all values are on the disk.
-  virtual std::function<void()> prepare(const Moment& moment, bool planned, std::size_t entry) = 0;
+  virtual std::function<void()> prepare(const SeriesStep& moment, bool planned, std::size_t entry) = 0;
   /// On the root: takes the `entry`th, the last, from the list.
   virtual void unlist(std::size_t entry) = 0;
 

@@ -73,7 +73,7 @@ LineSeries::LineSeries(const LineSeriesPlan& plan, LineSource& source, parallel:
 
 void LineSeries::write(LineSource& source) {
   for (const auto& series : formats_) {
-    series->write(moment_of(source), [&](const StoredField& field) { return source.field(field.name); });
+    series->write(series_step(source), [&](const StoredField& field) { return source.field(field.name); });
   }
 }
 

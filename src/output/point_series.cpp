@@ -24,7 +24,7 @@ void PointSeries::write_reference(const FieldView& undeformed_positions) {
 
 void PointSeries::write(PointSource& source) {
   for (const auto& series : formats_) {
-    series->write(moment_of(source), [&](const StoredField& field) {
+    series->write(series_step(source), [&](const StoredField& field) {
       return field.name == position_field ? source.positions() : source.field(field.name);
     });
   }

@@ -44,7 +44,7 @@ enum class SeriesKind { points, lines };
 inline constexpr const char* position_field = "position";
 
 /// When a step is, and numbers that go with it.
-struct Moment {
+struct SeriesStep {
   long step = 0;
   double time_s = 0;
   std::vector<Annotation> annotations;
@@ -52,7 +52,7 @@ struct Moment {
 
 /// The moment of a PointSource or a LineSource.
 template <class Source>
-Moment moment_of(const Source& source) {
+SeriesStep series_step(const Source& source) {
   return {source.step(), source.time_s(), source.annotations()};
 }
 

@@ -210,7 +210,7 @@ void VtkHdfSeries::write_offsets() {
   file().write(offsets(), numbers);
 }
 
-std::function<void()> VtkHdfSeries::prepare(const Moment& moment, bool, std::size_t entry) {
+std::function<void()> VtkHdfSeries::prepare(const SeriesStep& moment, bool, std::size_t entry) {
   const FileInPlace h5(file().path());
   const auto write = [&](const std::string& dataset, const auto& number) {
     h5.write(numbers_at_.at(dataset) + static_cast<std::int64_t>(entry * sizeof(number)), bytes_of(number));

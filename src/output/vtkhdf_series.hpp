@@ -47,7 +47,7 @@ class VtkHdfSeries : public FieldSeries {
   Place fixed_positions() const override;
   Place connectivity() const override;
   Place place_of(const StoredField& field, long step, bool planned, std::size_t entry) const override;
-  std::function<void()> prepare(const Moment& moment, bool planned, std::size_t entry) override;
+  std::function<void()> prepare(const SeriesStep& moment, bool planned, std::size_t entry) override;
   void unlist(std::size_t entry) override;
 
  private:

@@ -17,7 +17,7 @@ std::string dataset_name(const std::string& field, long step, bool planned) {
 }
 
 /// The moment whose text is the longest among those with these annotations.
-Moment longest(Moment moment) {
+SeriesStep longest(SeriesStep moment) {
   constexpr double most_digits = -2.2250738585072014e-308;
   moment.step = std::numeric_limits<long>::lowest();
   moment.time_s = most_digits;
@@ -62,7 +62,7 @@ Place XdmfSeries::place_of(const StoredField& field, long step, bool planned, st
   return {dataset_name(field.name, step, planned), field.components, field.centring};
 }
 
-std::function<void()> XdmfSeries::prepare(const Moment& moment, bool planned, std::size_t) {
+std::function<void()> XdmfSeries::prepare(const SeriesStep& moment, bool planned, std::size_t) {
   if (!list_) start_list(moment);
   return [list = list_, text = grid(moment, planned)] { list->add(text); };
 }
@@ -71,7 +71,7 @@ void XdmfSeries::unlist(std::size_t) {
   list_->remove_last();
 }
 
-void XdmfSeries::start_list(const Moment& moment) {
+void XdmfSeries::start_list(const SeriesStep& moment) {
   const std::string head = fmt::format(
       R"(<?xml version="1.0"?>
 <Xdmf Version="3.0">
@@ -94,7 +94,7 @@ std::string XdmfSeries::reals(const Place& place) const {
   return item(place, "Float", file().bytes_of_real());
 }
 
-std::string XdmfSeries::grid(const Moment& moment, bool planned) const {
+std::string XdmfSeries::grid(const SeriesStep& moment, bool planned) const {
   const bool points = kind_ == SeriesKind::points;
   // The Xdmf3 readers show no cells unless the topology lists its points.
   std::string text = fmt::format(

@@ -32,14 +32,14 @@ class XdmfSeries : public FieldSeries {
   Place fixed_positions() const override;
   Place connectivity() const override;
   Place place_of(const StoredField& field, long step, bool planned, std::size_t entry) const override;
-  std::function<void()> prepare(const Moment& moment, bool planned, std::size_t entry) override;
+  std::function<void()> prepare(const SeriesStep& moment, bool planned, std::size_t entry) override;
   void unlist(std::size_t entry) override;
 
  private:
-  void start_list(const Moment& moment);
+  void start_list(const SeriesStep& moment);
   std::string item(const Place& place, const char* type, int bytes) const;
   std::string reals(const Place& place) const;
-  std::string grid(const Moment& moment, bool planned) const;
+  std::string grid(const SeriesStep& moment, bool planned) const;
 
   SeriesKind kind_;
   std::string basename_;

@@ -14,6 +14,12 @@ constexpr long venting_interval = 10;
 
 }  // namespace
 
+double LoadSource::leak(const VesselSimulation& simulation) const {
+  const Parameters& p = simulation.parameters();
+  return orifice_flow(p.discharge_coefficient, simulation.load().open_area, simulation.pressure(),
+                      p.blood_density);
+}
+
 void VentedLoad::before_step(VesselSimulation& simulation) {
   if (!simulation.rupture().onset || simulation.step_number() % venting_interval != 0) return;
   LoadState& load = simulation.load();

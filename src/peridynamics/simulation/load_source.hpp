@@ -16,6 +16,10 @@ class LoadSource {
   virtual void at_moment(VesselSimulation&) {}
   /// Before the step that follows the present moment. Collective.
   virtual void before_step(VesselSimulation&) {}
+  /// What leaves the vessel through its opening as last measured, m3/s: by itself, by the orifice law.
+  virtual double leak(const VesselSimulation& simulation) const;
+  /// Of the scheduled pressure, at most.
+  virtual double largest_share() const { return 1; }
 };
 
 /// The pressure falls once the wall has ruptured, because blood leaves through the opening (load.venting).

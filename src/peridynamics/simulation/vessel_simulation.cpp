@@ -15,10 +15,11 @@ enum Flag : std::uint64_t { broken = 1ull << 61, ruptured = 1ull << 62, unstable
 VesselSimulation::VesselSimulation(const WallModel& wall, parallel::Communicator comm)
     : p_(wall.parameters),
       lattice_(wall.lattice()),
-      time_step_(wall.time.step),
+      time_(wall.time),
       comm_(comm),
       particles_(wall.particles()),
       body_(make_body(wall.setup, comm)),
+      particle_source_(*body_),
       opening_(lattice_, *body_, comm, wall.setup.ends, wall.setup.thin_spots),
       lumen_(lattice_, *body_, comm) {}
 
@@ -28,6 +29,7 @@ double VesselSimulation::scheduled_pressure_at(long step) const {
 
 VesselSimulation::Report VesselSimulation::step(LoadSource& load, std::uint64_t flags) {
   load.before_step(*this);
+  observed_ = false;
   const StepEvents events = body_->advance(pressure(), scheduled_pressure_at(step_ + 1) * load_.next_share);
   if (events.broken > 0) flags |= Flag::broken;
   if (events.damaged) flags |= Flag::ruptured;
@@ -43,8 +45,28 @@ VesselSimulation::Report VesselSimulation::step(LoadSource& load, std::uint64_t 
   return report;
 }
 
-VesselSimulation::Report VesselSimulation::conclude(const Totals& totals) {
-  return record(totals.broken_bonds > 0, totals.max_damage >= rupture_damage);
+VesselSimulation::Report VesselSimulation::conclude() {
+  if (!observed_) observe();
+  return record(totals().broken_bonds > 0, totals().max_damage >= rupture_damage);
+}
+
+void VesselSimulation::observe() {
+  particle_source_.moment(step_, time(), body_->observe(pressure()), {{"pressure", "Pa", pressure()}});
+  observed_ = true;
+  totals_.reset();
+  opening_measured_ = false;
+}
+
+const Totals& VesselSimulation::totals() {
+  if (!totals_) totals_ = body_->totals();
+  return *totals_;
+}
+
+double VesselSimulation::open_area() {
+  // Beside a hole particles have lost about half of their bonds.
+  if (!opening_measured_) load_.open_area = totals().max_damage >= rupture_damage ? opening_.area() : 0;
+  opening_measured_ = true;
+  return load_.open_area;
 }
 
 /// Notes what the forces' evaluation at the present moment brought about, on any rank.
@@ -64,6 +86,7 @@ void VesselSimulation::resume(long step, const RuptureEvents& rupture, const Loa
   step_ = step;
   rupture_ = rupture;
   load_ = load;
+  observed_ = false;
 }
 
 }  // namespace rhexis::peridynamics

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The rupture of one vessel's wall in time: a body, what loads it, and what has happened to it so far.
 ///
-///     VesselSimulation simulation(*make_wall(parameters), comm);            // resolved parameters
-///     LoadSource load;                                                      // or one that answers to the
-///     wall load.start(simulation); while (simulation.step_number() < steps) {
-///       load.at_moment(simulation);
-///       ...                                     // observe simulation.body() under simulation.pressure()
-///       if (simulation.step(load).unstable) ...
-///     }
-///     simulation.body().observe(simulation.pressure());
-///     simulation.conclude(simulation.body().totals());
+///     VesselSimulation simulation(*make_wall(parameters), comm);  // resolved parameters
+///     LoadSource load;                                            // or one that answers to the wall
+///     load.start(simulation);
+///     TimeLoop(simulation, load, {.steps = 1000}).run();          // time_loop.hpp, with observers
 #pragma once
 
 #include <cstdint>
@@ -19,6 +14,7 @@
 #include "parallel/communicator.hpp"
 #include "peridynamics/engine/body.hpp"
 #include "peridynamics/monitors/opening.hpp"
+#include "peridynamics/monitors/particle_source.hpp"
 #include "peridynamics/simulation/load_source.hpp"
 #include "peridynamics/wall_model.hpp"
 
@@ -54,8 +50,9 @@ class VesselSimulation {
   const OpeningGauge& opening() const { return opening_; }
   const LumenGauge& lumen() const { return lumen_; }
 
+  const TimeSteps& time_steps() const { return time_; }
   long step_number() const { return step_; }
-  double time_at(long step) const { return static_cast<double>(step) * time_step_; }
+  double time_at(long step) const { return static_cast<double>(step) * time_.step; }
   double time() const { return time_at(step_); }
   /// By the schedule alone, Pa.
   double scheduled_pressure_at(long step) const;
@@ -65,6 +62,16 @@ class VesselSimulation {
   LoadState& load() { return load_; }
   const LoadState& load() const { return load_; }
 
+  /// Evaluates the fields of the present moment, which `particle_source`, `totals` and `open_area` tell of
+  /// until the next step. Collective.
+  void observe();
+  /// The particles and their fields as last observed.
+  ParticleSource& particle_source() { return particle_source_; }
+  /// Sums over the body as last observed. Collective.
+  const Totals& totals();
+  /// Area of the opening as last observed, m2; becomes that of `load()`. Collective.
+  double open_area();
+
   /// What a step, or the end, has shown; the same on all ranks.
   struct Report {
     bool unstable = false, ruptures = false;  ///< at the moment before the step; rupture for the first time
@@ -73,9 +80,9 @@ class VesselSimulation {
   /// Takes one step. `flags`: what this rank has to tell the others, below 2^60. Nothing is recorded of a
   /// step that has become unstable. Collective.
   Report step(LoadSource& load, std::uint64_t flags = 0);
-  /// Records what the last observation, with these `totals`, shows of the present moment, of which no further
-  /// step will tell. Collective.
-  Report conclude(const Totals& totals);
+  /// Records what the present moment shows, of which no further step will tell; observes it where nobody has.
+  /// Collective.
+  Report conclude();
 
   /// Goes on at a step with what a checkpoint has of it; the body is restored apart.
   void resume(long step, const RuptureEvents& rupture, const LoadState& load);
@@ -85,15 +92,21 @@ class VesselSimulation {
 
   Parameters p_;
   Lattice lattice_;
-  double time_step_;  ///< s
+  TimeSteps time_;
   parallel::Communicator comm_;
   std::int64_t particles_ = 0;
   std::unique_ptr<Body> body_;
+  ParticleSource particle_source_;
   OpeningGauge opening_;
   LumenGauge lumen_;
   long step_ = 0;
   RuptureEvents rupture_;
   LoadState load_;
+
+  // Of the present moment, where it has been observed.
+  bool observed_ = false;
+  std::optional<Totals> totals_;
+  bool opening_measured_ = false;
 };
 
 }  // namespace rhexis::peridynamics

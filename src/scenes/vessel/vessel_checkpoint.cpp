@@ -2,11 +2,8 @@
 // Checkpoints of a vessel's run: what they hold, and going on from one.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "core/stopwatch.hpp"
 #include "coupling/network_load.hpp"
 #include "output/checkpoint.hpp"
 #include "parallel/together.hpp"
@@ -16,81 +13,35 @@
 #include "scenes/vessel/vessel_run.hpp"
 
 namespace rhexis::scenes {
-namespace {
 
-constexpr const char* axes[] = {"x", "y", "z"};
-constexpr double largest = output::CheckpointReader::largest;
-
-output::WordBlock word_block(const peridynamics::Body& body) {
-  const peridynamics::BondWordLayout l = body.bond_word_layout();
-  return {l.rows, l.words, l.first_row, l.row_count, l.first_word, l.word_count};
+output::CheckpointObserver::Plan VesselRun::checkpoint_plan() {
+  return {
+      .every = c_.output.checkpoint_every,
+      .write = [this](long step) { return write_checkpoint(step); },
+      .interrupted =
+          [this](int signal, const std::filesystem::path& path) {
+            const std::string reason = runtime::interrupted_by(signal);
+            if (comm_.is_root()) session_.record().fail_alone(reason);
+            session_.console().important(fmt::format("  {}; go on with --restart {}", reason, path.string()));
+          },
+      .failed =
+          [this](const std::filesystem::path& path) {
+            session_.console().important(fmt::format("  failed; go on with --restart {}", path.string()));
+          },
+      .warn = [this](const std::string& reason) { session_.warn(reason); }};
 }
 
-/// The distributed arrays, by name and layout, once for writing and for reading.
-template <class Saved, class Visit>
-void for_each_array(const peridynamics::Body& body, Saved& saved, const Visit& visit) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    visit(fmt::format("displacement_{}", axes[k]), body.layout(), saved.displacement[k]);
-    visit(fmt::format("leapfrog_velocity_{}", axes[k]), body.layout(), saved.leapfrog_velocity[k]);
-  }
-  visit("intact_bonds", word_block(body), saved.words);
-}
-
-}  // namespace
-
-/// Names, members and the range that makes sense of all numbers but those that are compared, once for writing
-/// and for reading. SI units.
-template <class Visit>
-void VesselRun::for_each_number(peridynamics::Body::Saved& saved, peridynamics::RuptureEvents& rupture,
-                                peridynamics::LoadState& load, const Visit& visit) {
-  visit("frame_phase", saved.frame_phase, 0, largest);
-  visit("wrapped", saved.wrapped);
-  visit("first_kick_pending", saved.first_kick_pending);
-  for (std::size_t i = 0; i < 2; ++i) {
-    visit(fmt::format("external_work_{}", i), saved.external_work[i]);
-    visit(fmt::format("released_energy_{}", i), saved.released_energy[i]);
-  }
-  visit("load_speed", saved.load_speed, 0, largest);
-  for (std::size_t k = 0; k < 3; ++k) visit(fmt::format("frame_{}", axes[k]), saved.frame[k]);
-  // Venting only lowers the load; a network may also raise it, where the lumen widens.
-  visit("pressure_share", load.share, 0,
-        coupling_ != nullptr && coupling_->coupled().two_way() ? largest : 1);
-  visit("least_pressure_share", load.least_share, 0, 1);
-  visit("opening_area", load.open_area, 0, largest);
-  visit("resistance_factor", load.resistance_factor, 0, largest);
-  visit("told_of_crushed_bonds", crushing_was_told_);
-  visit("told_of_turbulence", turbulence_was_told_);
-  visit("first_bond_break_time", rupture.first_break, 0, largest);
-  visit("rupture_onset_time", rupture.onset, 0, largest);
-  visit("pressure_at_onset", rupture.pressure, 0, largest);
-  visit("blood_pressure_at_onset", rupture.blood_pressure, 0, largest);
-  visit("max_displacement_at_onset", rupture.max_displacement, 0, largest);
-}
-
-void VesselRun::write_checkpoint(long step) {
-  const Stopwatch watch(session_.spent().output);
-  const peridynamics::Body& body = simulation_->body();
-  peridynamics::Body::Saved saved = body.save();
-  peridynamics::RuptureEvents rupture = simulation_->rupture();
-  peridynamics::LoadState load = simulation_->load();
+std::filesystem::path VesselRun::write_checkpoint(long step) {
   const std::filesystem::path path = session_.folder().claim(checkpoint_name(step));
   output::CheckpointWriter file(path, runtime::version(), comm_);
   write_input(file, c_, &c_.wall->parameters);
   file.write(step_name, std::int64_t{step});
   file.write("time_step", c_.wall->time.step);
   file.write("scheduled_pressure", simulation_->scheduled_pressure_at(step));
-  for_each_number(saved, rupture, load,
-                  [&](const std::string& name, const auto& value, auto...) { file.write(name, value); });
-  for_each_array(body, saved, [&](const std::string& name, const auto& layout, const auto& values) {
-    file.write(name, layout, values);
-  });
+  studies::save_wall(*simulation_, given_warnings_, file);
   if (coupling_ != nullptr) coupling_->save(file);
   file.close();
-  last_checkpoint_ = path;
-  if (signal_ == 0) return;
-  if (comm_.is_root()) session_.record().fail_alone(runtime::interrupted_by(signal_));
-  session_.console().important(
-      fmt::format("  {}; go on with --restart {}", runtime::interrupted_by(signal_), path.string()));
+  return path;
 }
 
 /// Refuses the checkpoint of another body or time step; warns of another load.
@@ -128,27 +79,8 @@ void VesselRun::read_checkpoint() {
   if (coupling_ != nullptr)
     coupling_->restore(file, simulation_->time_at(first_step_), session_.options().directory);
   compare_with(file);
-  peridynamics::Body& body = simulation_->body();
-  peridynamics::Body::Saved saved = body.save();
-  peridynamics::RuptureEvents rupture;
-  peridynamics::LoadState load;
-  for_each_number(saved, rupture, load, [&](const std::string& name, auto& value, auto... range) {
-    file.read(name, value, range...);
-  });
-  for_each_array(body, saved, [&](const std::string& name, const auto& layout, auto& values) {
-    file.read(name, layout, values);
-  });
-  body.restore(saved);
-  if (!std::isfinite(body.save().external_work[0]))
-    file.refuse("'external_work_0' makes no sense: it is beyond all energies of this body");
   if (coupling_ != nullptr) coupling::NetworkLoad(coupling_->coupled()).start(*simulation_);
-  load.next_share = load.share;
-  simulation_->resume(first_step_, rupture, load);
-  results_.first_bond_break_s = rupture.first_break;
-  results_.rupture_onset_s = rupture.onset;
-  results_.pressure_at_onset_Pa = rupture.pressure;
-  results_.blood_pressure_at_onset_Pa = rupture.blood_pressure;
-  results_.max_displacement_at_onset_m = rupture.max_displacement;
+  studies::restore_wall(*simulation_, *load_, given_warnings_, first_step_, file);
   // What is continued is read before anything is written.
   parallel::on_root<InputError>(
       comm_, [&] { output::kept_history(session_.options().directory / "history.csv", first_step_ - 1); });

@@ -68,6 +68,14 @@ void VesselRun::print_header() {
   session_.print_surroundings();
 }
 
+void VesselRun::print_onset(const peridynamics::RuptureEvents& rupture) {
+  session_.console().line(
+      fmt::format("  rupture begins at {} under {} on the reference area (a blood pressure of {}), largest "
+                  "displacement {}",
+                  quantity(*rupture.onset, "s"), quantity(*rupture.pressure, "Pa"),
+                  quantity(*rupture.blood_pressure, "Pa"), quantity(*rupture.max_displacement, "m", 3)));
+}
+
 void VesselRun::print_summary() {
   const Results& r = results_;
   const runtime::Performance p = session_.performance();

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// One vessel from its configuration to its results: owns the time loop and the observers.
+/// One vessel from its configuration to its results: composes the simulation, its load and its observers.
 #pragma once
 
 #include <memory>
 #include <optional>
 
 #include "output/checkpoint.hpp"
+#include "output/checkpoint_observer.hpp"
+#include "output/field_observer.hpp"
 #include "output/history.hpp"
-#include "output/point_series.hpp"
-#include "peridynamics/monitors/particle_source.hpp"
 #include "peridynamics/simulation/vessel_simulation.hpp"
 #include "runtime/run_session.hpp"
 #include "scenes/coupled/network_coupling.hpp"
 #include "scenes/results.hpp"
+#include "studies/rupture/wall_checkpoint.hpp"
 
 namespace rhexis::scenes {
 
@@ -37,28 +38,20 @@ class VesselRun {
   const runtime::Spent& spent() const { return session_.spent(); }
 
  private:
-  std::string unstable_message(long step, const std::string& sign) const;
   void build();
   void open_results();
+  std::optional<output::PointSeriesPlan> series_plan();
   void print_header();
+  void print_onset(const peridynamics::RuptureEvents& rupture);
   void start_at_equilibrium();
   void time_loop();
-  void check_balance(long step, const peridynamics::Totals& t) const;
-  bool balance_due(long step) const;
-  void warn_of_crushed_bonds(long step, const peridynamics::Totals& t);
-  void warn_of_turbulence();
+  void note_results(const Moment& moment);
+  Results results_so_far() const;
   void warn_of_odd_openings();
-  void observe(long step, bool with_output, bool with_pictures);
-  void show(bool with_output, bool with_pictures);
-  bool output_due(long step) const;
-  bool pictures_due(long step, bool with_output);
-  void record_events(const peridynamics::VesselSimulation::Report& report);
-  void write_checkpoint(long step);
+  output::CheckpointObserver::Plan checkpoint_plan();
+  std::filesystem::path write_checkpoint(long step);
   void read_checkpoint();
   void compare_with(output::CheckpointReader& file);
-  template <class Visit>
-  void for_each_number(peridynamics::Body::Saved& saved, peridynamics::RuptureEvents& rupture,
-                       peridynamics::LoadState& load, const Visit& visit);
   void print_summary();
   runtime::Work work() const;
   long step() const { return simulation_->step_number(); }
@@ -70,15 +63,13 @@ class VesselRun {
   NetworkCoupling* coupling_;
   std::unique_ptr<peridynamics::VesselSimulation> simulation_;
   std::unique_ptr<peridynamics::LoadSource> load_;
-  std::unique_ptr<peridynamics::ParticleSource> source_;
-  std::optional<output::PointSeries> series_;
   std::optional<output::History> history_;
+  std::optional<output::FieldObserver> fields_;
 
-  std::filesystem::path last_checkpoint_;  ///< that this run has written
+  studies::GivenWarnings given_warnings_;
   std::int64_t start_bond_evaluations_ = 0;
   long first_step_ = 0;
-  int signal_ = 0;  ///< that asks this run to end
-  bool crushing_was_told_ = false, turbulence_was_told_ = false;
+  int signal_ = 0;  ///< that has ended this run
 };
 
 /// One vessel alone. Throws as VesselRun::run. Collective.

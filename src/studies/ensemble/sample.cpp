@@ -5,12 +5,13 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "peridynamics/simulation/vessel_simulation.hpp"
+#include "peridynamics/simulation/energy_balance.hpp"
+#include "peridynamics/simulation/time_loop.hpp"
 
 namespace rhexis::ensemble {
 
 std::optional<Sample> simulate(const Parameters& p, const peridynamics::WallModel& mean, double pressure,
-                               std::int64_t wall, const std::function<bool()>& stop,
+                               std::int64_t wall, const std::function<int()>& signal,
                                std::int64_t& bond_evaluations) {
   Sample sample;
   sample.pressure = pressure;
@@ -25,30 +26,27 @@ std::optional<Sample> simulate(const Parameters& p, const peridynamics::WallMode
   const peridynamics::SharedWall model =
       peridynamics::make_wall(std::move(drawn), same_geometry ? mean.setup.families : nullptr);
   peridynamics::VesselSimulation simulation(*model, parallel::Communicator::self());
-  const auto refuse = [&](long step) {
+  peridynamics::LoadSource load;
+  peridynamics::EnergyBalance balance(simulation, {});
+  peridynamics::TimeLoop loop(simulation, load,
+                              {.steps = model->time.count, .ends_at_rupture = true, .signal = signal});
+  loop.subscribe(balance);
+  try {
+    if (loop.run() != 0) return {};
+  } catch (const peridynamics::UnstableError& error) {
     throw RunError(fmt::format(
         "wall {} under {} (strength x {}, thickness x {}, stiffness x {}) became unstable by {}; use a "
         "smaller time.step_fraction (now {}), in another folder: samples of both steps do not mix",
         wall, mmhg(pressure), text(sample.factors.strength), text(sample.factors.thickness),
-        text(sample.factors.stiffness), quantity(simulation.time_at(step), "s"),
+        text(sample.factors.stiffness), quantity(simulation.time_at(error.step), "s"),
         text(model->parameters.step_fraction)));
-  };
-  peridynamics::LoadSource load;
-  peridynamics::Body& body = simulation.body();
-  while (simulation.step_number() < model->time.count && !simulation.rupture().onset) {
-    if (stop()) return {};
-    if (simulation.step(load).unstable) refuse(simulation.step_number() + 1);
   }
-  body.observe(simulation.pressure());
-  const peridynamics::Totals last = body.totals();
-  if (!peridynamics::holds_no_more_than_was_put_in(last)) refuse(simulation.step_number());
-  simulation.conclude(last);
   sample.steps = simulation.step_number();
   sample.first_break = simulation.rupture().first_break;
   sample.onset = simulation.rupture().onset;
   sample.ruptured = sample.onset.has_value();
-  sample.max_displacement = body.max_displacement();
-  bond_evaluations += body.bond_evaluations();
+  sample.max_displacement = simulation.body().max_displacement();
+  bond_evaluations += simulation.body().bond_evaluations();
   return sample;
 }
 

@@ -28,11 +28,11 @@ inline bool comes_before(const Sample& a, const Sample& b) {
   return a.wall != b.wall ? a.wall < b.wall : a.pressure < b.pressure;
 }
 
-/// Simulates wall number `wall`, drawn around the `mean` one, under `pressure` on this rank alone. Asks
-/// `stop` before every step and gives nothing where it says so. Adds to `bond_evaluations`. Throws RunError,
-/// which names the sample, where the vessel becomes unstable.
+/// Simulates wall number `wall`, drawn around the `mean` one, under `pressure` on this rank alone. Asks for a
+/// `signal` at every step and gives nothing where there is one (other than 0). Adds to `bond_evaluations`.
+/// Throws RunError, which names the sample, where the vessel becomes unstable.
 std::optional<Sample> simulate(const Parameters& p, const peridynamics::WallModel& mean, double pressure,
-                               std::int64_t wall, const std::function<bool()>& stop,
+                               std::int64_t wall, const std::function<int()>& signal,
                                std::int64_t& bond_evaluations);
 
 }  // namespace rhexis::ensemble

@@ -3,33 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "peridynamics/bonds/surface_correction.hpp"
-#include "peridynamics/stability/time_steps.hpp"
-#include "support/vessels.hpp"
+#include "support/weak_vessel.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
-
-/// A short piece of the paper's wall, weak and coarse, under 60 kPa: it ruptures within 0.5 ms.
-Parameters weak_vessel() {
-  Parameters v = test::paper_vessel(1e-3);
-  v.spacing = 1.6e-4;
-  v.horizon = 5.6e-4;
-  v.critical_stretch = 0.02;
-  v.ends = EndCondition::axial_periodic;
-  v.length = 1.6e-3;
-  v.schedule = Schedule::smooth_ramp;
-  v.end_time = 5e-4;
-  v.step_fraction = 0.65;
-  v.pressure = 60e3;
-  resolve(v);
-  return v;
-}
-
-struct Made {
-  SharedWall wall = make_wall(weak_vessel());
-  VesselSimulation simulation{*wall, parallel::Communicator::world()};
-};
 
 /// Steps until the onset of rupture.
 void rupture(VesselSimulation& simulation, LoadSource& load) {
@@ -42,7 +19,7 @@ void rupture(VesselSimulation& simulation, LoadSource& load) {
 }
 
 TEST(VesselSimulation, RecordsWhenTheWallBreaksAndUnderWhat) {
-  Made made;
+  test::MadeVessel made;
   VesselSimulation& simulation = made.simulation;
   LoadSource load;
   rupture(simulation, load);
@@ -61,7 +38,7 @@ TEST(VesselSimulation, RecordsWhenTheWallBreaksAndUnderWhat) {
 }
 
 TEST(VesselSimulation, PassesTheFlagsOfItsCallerOn) {
-  Made made;
+  test::MadeVessel made;
   LoadSource load;
   EXPECT_EQ(made.simulation.step(load, 4).flags, 4u);
   EXPECT_EQ(made.simulation.step(load).flags, 0u);
@@ -71,7 +48,7 @@ TEST(VesselSimulation, TheLoadsShareActsFromTheNextStepOn) {
   struct Half : LoadSource {
     void before_step(VesselSimulation& s) override { s.load().next_share = 0.5; }
   };
-  Made made;
+  test::MadeVessel made;
   Half load;
   made.simulation.resume(100, {}, {});
   EXPECT_EQ(made.simulation.pressure(), made.simulation.scheduled_pressure_at(100));
@@ -80,7 +57,7 @@ TEST(VesselSimulation, TheLoadsShareActsFromTheNextStepOn) {
 }
 
 TEST(VentedLoad, LeavesAnIntactWallAlone) {
-  Made made;
+  test::MadeVessel made;
   VentedLoad load(1e-6);
   for (int i = 0; i < 30; ++i) made.simulation.step(load);
   EXPECT_EQ(made.simulation.load().share, 1);
@@ -88,7 +65,7 @@ TEST(VentedLoad, LeavesAnIntactWallAlone) {
 }
 
 TEST(VentedLoad, FallsByTheOpeningOfARupturedWall) {
-  Made made;
+  test::MadeVessel made;
   VentedLoad load(1e-6);
   rupture(made.simulation, load);
   while (made.simulation.load().least_share == 1 && made.simulation.time() < 5e-4)
