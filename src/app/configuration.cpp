@@ -24,8 +24,7 @@ std::string read_on_root(const std::string& file, parallel::Communicator comm) {
 
 /// Memory that reading `text` takes, bytes. Throws InputError where there is not as much.
 double reading_bytes(const std::string& text, const std::string& file, parallel::Communicator comm) {
-  constexpr double of_a_character = 32;  // measured on a table of a million points
-  const double bytes = of_a_character * static_cast<double>(text.size());
+  const double bytes = input::parsing_bytes(text.size());
   const MemoryLimit limit = available_memory();
   const double here = limit.of_machine ? parallel::ranks_of_node(comm) : 1;
   parallel::together<InputError>(comm, [&] {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/check.hpp"
 #include "core/format.hpp"
@@ -66,9 +65,9 @@ void check(const scenes::NetworkScene& s, const scenes::Reading& reading) {
     console.item("time", "none to speak of: all vessels of a generation are alike");
     return;
   }
-  console.item("memory", fmt::format("about {:.0f} MB, all ranks together",
-                                     40.0 * comm.size() +
-                                         std::ldexp(8.0, std::max(0, problem.tree.generations - 11)) / 1e6));
+  console.item("memory",
+               fmt::format("about {:.0f} MB, all ranks together",
+                           hemodynamics::TreeFlow::bytes(problem.tree.generations, comm.size()) / 1e6));
   console.item("time",
                fmt::format("about {} (measured now on a smaller tree of these rules; pictures come on top)",
                            duration(vessels * seconds_per_vessel(problem, comm))));

@@ -14,6 +14,13 @@
 #include "core/memory.hpp"
 #include "parallel/node.hpp"
 #include "parallel/together.hpp"
+#include "peridynamics/bonds/surface_correction.hpp"
+#include "peridynamics/engine/body.hpp"
+#include "peridynamics/monitors/opening.hpp"
+#include "peridynamics/monitors/particle_source.hpp"
+#include "peridynamics/stability/linear_limit.hpp"
+#include "peridynamics/statics/elastic_error.hpp"
+#include "peridynamics/statics/equilibrium.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -72,7 +79,37 @@ std::string advice(const Parameters& resolved, bool geometry_is_given,
   return text;
 }
 
+double run_bytes(const Parameters& p, const WallSize& wall, const WallUse& use) {
+  const bool doubles = p.bond_precision == Precision::double_precision;
+  const BodySize size = body_size(p, wall, wall.rows, use.ranks);
+  const double particles = size.particles(), body = body_bytes(p.law, doubles, size);
+  double bytes = body + Observation::bytes(particles);
+  if (use.outputs) {
+    const double across = std::max(1.0, (p.outer_radius - p.inner_radius) / *p.spacing);
+    const double written = 3 * particles * (use.doubles ? sizeof(double) : sizeof(float));
+    bytes += ParticleSource::bytes(particles) + written + OpeningGauge::bytes(particles, across, use.threads);
+  }
+  if (use.checkpoints) bytes += Body::Saved::bytes(size);
+  if (p.equilibrium_pressure > 0)
+    bytes = std::max(bytes, body + Observation::bytes(particles) + equilibrium_bytes(body, particles));
+  return bytes;
+}
+
+double check_bytes(const Parameters& p, const WallSize& wall, const WallUse& use) {
+  const bool doubles = p.bond_precision == Precision::double_precision;
+  const double rows = std::min(wall.rows, static_cast<double>(timed_rows * use.ranks));
+  const double timed = body_bytes(p.law, doubles, body_size(p, wall, rows, use.ranks));
+  return std::max({timed, linear_limit_bytes(p, wall), elastic_error_bytes(p, wall)});
+}
+
 }  // namespace
+
+WallMemory wall_memory(const Parameters& p, const WallSize& size, const WallUse& use) {
+  const double families = use.ranks * BondFamilies::bytes(size);  // every rank has them all
+  const double weighting = use.ranks * weighting_bytes(p, size);
+  return {families + std::max(weighting, run_bytes(p, size, use)),
+          families + std::max(weighting, check_bytes(p, size, use))};
+}
 
 std::string megabytes(double bytes) {
   return bytes < 1e10 ? fmt::format("{} MB", grouped(std::llround(bytes / 1e6)))

@@ -2,11 +2,35 @@
 /// Whether a wall fits into memory, before any of it is made.
 #pragma once
 
+#include <cstdint>
+#include <string>
+
 #include "parallel/communicator.hpp"
-#include "peridynamics/engine/memory.hpp"
+#include "peridynamics/bonds/wall_size.hpp"
 #include "peridynamics/parameters.hpp"
 
 namespace rhexis::peridynamics {
+
+/// How a wall is simulated, as far as memory depends on it.
+struct WallUse {
+  int ranks = 1;         ///< among which one wall is dealt out
+  int threads = 1;       ///< of each
+  bool outputs = true;   ///< fields are observed and written
+  bool doubles = false;  ///< they are written in double precision
+  bool checkpoints = false;
+};
+
+/// Rows, of each rank, of the piece of the wall that `rhexis check` times.
+inline constexpr std::int64_t timed_rows = 64;
+
+/// Bytes of all ranks together, at the moment of most, without what the program and its libraries take.
+struct WallMemory {
+  double run = 0;
+  double check = 0;  ///< `rhexis check`: pieces of the wall, to be timed and for its stability and accuracy
+};
+
+/// Adds up what the parts of a wall tell of themselves.
+WallMemory wall_memory(const Parameters& p, const WallSize& size, const WallUse& use);
 
 /// What is asked of memory: walls, and how they are used.
 struct WallDemand {

@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "peridynamics/engine/body.hpp"
-#include "peridynamics/engine/memory.hpp"
 #include "peridynamics/parameters.hpp"
 #include "peridynamics/stability/time_steps.hpp"
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "peridynamics/bonds/wall_size.hpp"
 #include "peridynamics/geometry/cross_section.hpp"
 
 namespace rhexis::peridynamics {
@@ -36,6 +37,12 @@ struct BondFamilies {
   std::vector<std::int64_t> first;
   std::vector<Bond> bonds;
   int reach = 0;  ///< largest |row_offset|
+
+  /// Memory that families of this size take, with the lattice and the bins that they are found in.
+  static double bytes(const WallSize& size) {
+    constexpr double lattice_bytes = 40;  // of a column
+    return size.bonds * sizeof(Bond) + size.columns * (sizeof(std::int64_t) + lattice_bytes);
+  }
 
   std::int64_t count(std::size_t column) const { return first[column + 1] - first[column]; }
   std::span<const Bond> of(std::size_t column) const {

@@ -232,4 +232,12 @@ SharedFamilies shared_families(const Parameters& p, const Lattice& lattice) {
   return std::make_shared<const BondFamilies>(weighted_families(p, lattice));
 }
 
+double weighting_bytes(const Parameters& p, const WallSize& size) {
+  if (surface_correction(p) != SurfaceCorrection::calibrated) return 0;
+  const double conditions = 6 * (size.rings + 1);
+  constexpr double entries = 12, entry_bytes = 40;  // of a bond in the conditions
+  return 3 * conditions * conditions * sizeof(double) +
+         size.bonds_of_column() * size.rings * entries * entry_bytes;
+}
+
 }  // namespace rhexis::peridynamics

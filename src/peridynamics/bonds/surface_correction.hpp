@@ -33,4 +33,8 @@ SharedFamilies shared_families(const Parameters& p, const Lattice& lattice);
 
 inline constexpr double least_weight = 0.3;
 
+/// Memory that finding the weights takes beside the families: of "calibrated" ones the conditions, at first,
+/// and their dense matrix with its factors; of others none.
+double weighting_bytes(const Parameters& p, const WallSize& size);
+
 }  // namespace rhexis::peridynamics

@@ -15,4 +15,10 @@ std::unique_ptr<Body> make_body(BodySetup setup, parallel::Communicator comm) {
   });
 }
 
+double body_bytes(const LawChoice& law, bool double_bonds, const BodySize& size) {
+  return with_law(law, [&]<class Law>(const Law&) {
+    return double_bonds ? ColumnBody<Law, double>::bytes(size) : ColumnBody<Law, float>::bytes(size);
+  });
+}
+
 }  // namespace rhexis::peridynamics

@@ -18,6 +18,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/halo.hpp"
 #include "peridynamics/engine/body_setup.hpp"
+#include "peridynamics/engine/body_size.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -38,6 +39,8 @@ struct Observation {
   std::array<std::vector<double>, 3> force_density;  ///< N/m3: bonds and pressure
   std::vector<double> strain_energy_density;         ///< J/m3
   std::vector<double> damage;  ///< Eq. (6), 0..1; not a number where thin spots leave no particle
+
+  static double bytes(double particles) { return 8 * particles * sizeof(double); }
 };
 
 /// Sums over the whole body (all ranks), independent of the partition. SI units.
@@ -124,6 +127,10 @@ class Body {
     std::array<double, 3> frame{};  ///< m, origin of FollowingFrame
     bool wrapped = false;           ///< FollowingFrame::wrapped
     long frame_phase = 0;           ///< steps since the frame last looked at the body's motion
+
+    static double bytes(const BodySize& size) {
+      return 6 * size.particles() * sizeof(double) + size.words() * sizeof(std::uint16_t);
+    }
   };
   virtual BondWordLayout bond_word_layout() const = 0;
   virtual Saved save() const = 0;
@@ -131,5 +138,8 @@ class Body {
 };
 
 std::unique_ptr<Body> make_body(BodySetup setup, parallel::Communicator comm);
+
+/// Memory that a body of this size takes on all ranks, without its families and before it is observed.
+double body_bytes(const LawChoice& law, bool double_bonds, const BodySize& size);
 
 }  // namespace rhexis::peridynamics

@@ -38,6 +38,12 @@ class BondStorage {
     find_opposites();
   }
 
+  /// Memory that this takes on all ranks.
+  static double bytes(const BodySize& size) {
+    return size.bonds * (sizeof(BondConstants<Real>) + sizeof(std::int32_t)) +
+           size.words() * sizeof(std::uint16_t) + size.particles() * sizeof(double) + size.blocks();
+  }
+
   /// Constants of the bonds of an owned column.
   std::span<const BondConstants<Real>> bonds(std::int32_t slot) const {
     return {constants_.data() + first_bond(slot), count(slot)};

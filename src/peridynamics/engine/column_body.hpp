@@ -36,6 +36,8 @@ struct StepLoad {
 
 template <class Law, class Real>
 class ColumnBody final : public Body {
+  using Subdomain = ThreadSubdomain<Real>;
+
  public:
   ColumnBody(Law law, BodySetup setup, parallel::Communicator comm)
       : setup_(std::move(setup)),
@@ -60,6 +62,15 @@ class ColumnBody final : public Body {
       u_[k].assign(particles(), 0.0);
       v_[k].assign(particles(), 0.0);
     }
+  }
+
+  /// Memory that such a body takes on all ranks, without its families and before it is observed.
+  static double bytes(const BodySize& size) {
+    const double dilatation = Law::state_based ? Dilatation<Law, Real>::bytes(size) : 0;
+    return 6 * size.particles() * sizeof(double) + Domain::bytes(size) + PressureLoad::bytes(size) +
+           PlaceProperties<Real>::bytes(size) + BondStorage<Real>::bytes(size) +
+           BondDisplacement<Real>::bytes(size) + Subdomain::bytes(size) +
+           FractureEnergy<Law, Real>::bytes(size) + dilatation;
   }
 
   const PointLayout& layout() const override { return domain_.layout(); }
@@ -101,8 +112,6 @@ class ColumnBody final : public Body {
   void restore(const Saved& saved) override;
 
  private:
-  using Subdomain = ThreadSubdomain<Real>;
-
   static Domain checked_domain(const BodySetup& setup, const parallel::Communicator& comm);
   const Real* dilatation_pressure() const {
     if constexpr (Law::state_based) return dilatation_->pressure();

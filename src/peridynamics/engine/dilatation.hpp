@@ -34,6 +34,12 @@ class Dilatation {
     }
   }
 
+  /// Memory that this takes on all ranks.
+  static double bytes(const BodySize& size) {
+    return size.padded() * sizeof(Real) + size.particles() * sizeof(double) +
+           size.blocks() * sizeof(RowBlock);
+  }
+
   /// p of owned and halo particles, padded.
   const Real* pressure() const { return pressure_.data(); }
   const parallel::Traffic& traffic() const { return halo_.traffic(); }

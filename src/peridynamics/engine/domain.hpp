@@ -12,6 +12,7 @@
 #include "parallel/halo.hpp"
 #include "parallel/partition.hpp"
 #include "peridynamics/bonds/bond_family.hpp"
+#include "peridynamics/engine/body_size.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -31,6 +32,9 @@ class Domain {
  public:
   Domain(const Lattice& lattice, const BondFamilies& families, const parallel::Partition& partition, int rank,
          bool periodic);
+
+  /// Memory of the ranks' domains, and of the cross-section and the layer that each rank holds.
+  static double bytes(const BodySize& size) { return 100 * size.columns * size.ranks; }
 
   const PointLayout& layout() const { return layout_; }
   bool periodic() const { return periodic_; }

@@ -53,6 +53,9 @@ class FractureEnergy {
     per_weight_ = 0.25 * units.energy_density() * critical_stretch_ * critical_stretch_ * units.volume();
   }
 
+  /// Memory that this takes on all ranks.
+  static double bytes(const BodySize& size) { return size.blocks() * sizeof(double); }
+
   /// J, the block's half of what its broken bonds took: c s0^2 |xi| V_i V_j / 2 each (PMB).
   double of(RowBlock b) const { return found_[domain_->number(b)]; }
 

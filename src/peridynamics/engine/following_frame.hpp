@@ -91,6 +91,9 @@ class BondDisplacement {
     }
   }
 
+  /// Memory that this takes on all ranks.
+  static double bytes(const BodySize& size) { return 2 * 3 * size.padded() * sizeof(Real); }
+
   const FollowingFrame& frame() const { return frame_; }
   std::array<Real*, 3> current() { return pointers(copies_[now_]); }
   std::array<const Real*, 3> current() const {

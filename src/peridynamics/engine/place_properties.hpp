@@ -24,6 +24,11 @@ class PlaceProperties {
     if (!setup.thin_spots.none()) find_absent(setup, domain, heights);
   }
 
+  /// Memory that this takes on all ranks.
+  static double bytes(const BodySize& size) {
+    return size.padded() * ((size.heterogeneous ? 2 * sizeof(Real) : 0) + (size.thinned ? sizeof(char) : 0));
+  }
+
   /// Critical stretch and stiffness are the same everywhere.
   bool uniform() const { return half_stretch_.empty(); }
 

@@ -32,6 +32,9 @@ class PressureLoad {
     largest_ *= comm.all_reduce(*std::ranges::max_element(share_), parallel::Reduce::max);
   }
 
+  /// Memory that this takes on all ranks.
+  static double bytes(const BodySize& size) { return size.thinned ? size.particles() * sizeof(double) : 0; }
+
   /// The largest force density for a pressure of 1, on any rank; 1/m.
   double largest() const { return largest_; }
 

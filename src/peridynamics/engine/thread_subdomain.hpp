@@ -53,6 +53,11 @@ class ThreadSubdomain : public SubdomainExtent {
       sums = hwy::AllocateAligned<Real>(domain.stride() * static_cast<std::size_t>(past_slot - first_slot));
   }
 
+  /// Memory that the subdomains of all threads and ranks take.
+  static double bytes(const BodySize& size) {
+    return 4 * size.columns * size.stride() * sizeof(Real) + 2 * size.bonds * sizeof(std::uint16_t);
+  }
+
   /// A column's bonds to columns before the subdomain; may be none.
   const BondRun& backward_run(std::int32_t slot) const { return runs_[first_run(slot)]; }
   /// A column's forward bonds.

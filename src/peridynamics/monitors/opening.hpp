@@ -27,6 +27,11 @@ class OpeningGauge {
   OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm, EndCondition ends,
                const ThinSpots& thin_spots = {});
 
+  /// Memory that this takes on all ranks: what it knows of rows. `across`: spacings across the wall.
+  static double bytes(double particles, double across, int threads) {
+    return 10 * particles / across * threads;
+  }
+
   /// m2. Collective.
   double area() const;
 

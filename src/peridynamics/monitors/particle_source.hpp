@@ -16,6 +16,9 @@ class ParticleSource final : public PointSource {
  public:
   explicit ParticleSource(Body& body) : body_(&body) {}
 
+  /// Memory that this takes on all ranks: the positions.
+  static double bytes(double particles) { return 3 * particles * sizeof(double); }
+
   /// A new moment: `observation` holds its fields (see Body::observe).
   void moment(long step, double time_s, const Observation& observation, std::vector<Annotation> annotations);
 

@@ -125,4 +125,13 @@ double linear_time_step_limit(const BodySetup& setup) {
   return 2 / std::sqrt(largest_eigenvalue(diagonal, beside));
 }
 
+double linear_limit_bytes(const Parameters& p, const WallSize& size) {
+  const double rows = rows_within(*p.horizon * size.rows / p.length) + 1;
+  BodySize piece = body_size(p, size, rows, 1);
+  piece.heterogeneous = piece.thinned = false;
+  constexpr double vectors = 19;  // of a number for each particle
+  return body_bytes(p.law, /*double_bonds=*/true, piece) + Observation::bytes(piece.particles()) +
+         vectors * piece.particles() * sizeof(double);
+}
+
 }  // namespace rhexis::peridynamics

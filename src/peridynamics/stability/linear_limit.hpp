@@ -12,4 +12,7 @@ namespace rhexis::peridynamics {
 /// stiffness away. Works alone, on the calling rank.
 double linear_time_step_limit(const BodySetup& setup);
 
+/// Memory that finding it takes.
+double linear_limit_bytes(const Parameters& p, const WallSize& size);
+
 }  // namespace rhexis::peridynamics

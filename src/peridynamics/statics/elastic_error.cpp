@@ -156,4 +156,16 @@ ElasticError elastic_error(const Parameters& p, const BodySetup& setup) {
   return {std::sqrt(error / size), most / least - 1};
 }
 
+double elastic_error_bytes(const Parameters& p, const WallSize& size) {
+  const double entry = sizeof(double) + sizeof(Matrix::StorageIndex);
+  const double vectors = 2 * 10 * sizeof(double);  // of two unknowns a column
+  const double of_bonds = size.columns * (4 * size.neighbours * entry + vectors);
+  return with_law(p.law, [&]<class Law>(const Law&) {
+    // Dilatation joins neighbours' neighbours too.
+    if constexpr (Law::state_based)
+      return of_bonds + size.columns * size.neighbours * entry * (2 + 4 * 4 * 2.5);
+    return of_bonds;
+  });
+}
+
 }  // namespace rhexis::peridynamics

@@ -20,4 +20,7 @@ struct ElasticError {
 /// `setup.layer`. Throws RunError where they do not hold the wall together.
 ElasticError elastic_error(const Parameters& p, const BodySetup& setup);
 
+/// Memory that finding it takes.
+double elastic_error_bytes(const Parameters& p, const WallSize& size);
+
 }  // namespace rhexis::peridynamics

@@ -20,6 +20,12 @@ struct Equilibrium {
   std::int64_t bond_evaluations = 0;  ///< directed, on this rank
 };
 
+/// Memory that finding it takes on all ranks beside the run's own body: another one, and displacement,
+/// velocity and force.
+inline double equilibrium_bytes(double body_bytes, double particles) {
+  return body_bytes + 9 * particles * sizeof(double);
+}
+
 /// Finds the equilibrium under `pressure` (Pa) to a residual of at most `tolerance`. Throws RunError where
 /// that is not reached in `most_steps`. Collective.
 Equilibrium find_equilibrium(BodySetup setup, double pressure, double tolerance, parallel::Communicator comm,

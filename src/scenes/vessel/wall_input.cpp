@@ -17,9 +17,6 @@
 namespace rhexis::scenes {
 namespace {
 
-/// What ParaView takes to read scripts, bytes; measured with 5.11 and 5.13.
-constexpr double paraview_bytes = 300e6;
-
 /// Tells of the memory of a wall of `resolved` parameters, before it is checked or taken.
 void tell_of_memory(const peridynamics::Parameters& resolved, const peridynamics::WallDemand& demand,
                     const runtime::PicturesPlan& pictures, const Reading& reading) {
@@ -32,7 +29,7 @@ void tell_of_memory(const peridynamics::Parameters& resolved, const peridynamics
                            demand.one_each ? "on each rank" : "all ranks together",
                            megabytes(std::max(memory.check, reading.input_bytes)),
                            reads_scripts ? fmt::format(", and {} for ParaView to read the scripts",
-                                                       megabytes(paraview_bytes))
+                                                       megabytes(insitu::inspection_bytes))
                                          : ""));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What there is of a wall, by formulas, against what is made of it.
-#include "peridynamics/engine/memory.hpp"
+#include "peridynamics/wall_memory.hpp"
 
 #include <gtest/gtest.h>
 

@@ -57,6 +57,12 @@ TreeFlow::TreeFlow(const network::TreePair& tree, const Viscosity& viscosity, co
   if (!alike_) top_->fall(root_);
 }
 
+double TreeFlow::bytes(int generations, int ranks) {
+  constexpr double subtrees_and_tables = 40e6;  // of a rank; measured
+  const double bottoms = std::ldexp(1.0, std::max(0, generations - usual_bottom));
+  return ranks * subtrees_and_tables + bottoms * sizeof(double);
+}
+
 /// One vessel a generation, from the last upwards.
 void TreeFlow::rise_alike() {
   const int k = tree_.generations();

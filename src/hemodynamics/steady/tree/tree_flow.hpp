@@ -74,6 +74,9 @@ class TreeFlow {
   TreeFlow(const network::TreePair& tree, const Viscosity& viscosity, const TreeBoundary& boundary,
            parallel::Communicator comm, bool one_by_one = false);
 
+  /// Memory that it takes on all ranks together, where the vessels of a generation differ.
+  static double bytes(int generations, int ranks);
+
   double resistance() const { return resistance_; }  ///< Pa s/m3, of the whole
   double flow() const { return root_.flow; }         ///< m3/s
   double inlet_pressure() const { return root_.artery_pressure; }

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "peridynamics/engine/memory.hpp"
+#include "peridynamics/bonds/wall_size.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
-
-#include "parallel/partition.hpp"
-#include "peridynamics/bonds/surface_correction.hpp"
-#include "peridynamics/engine/bond_kernel.hpp"
-#include "peridynamics/geometry/heterogeneity.hpp"
-#include "peridynamics/laws/all_laws.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
-
-constexpr double real8 = sizeof(double);
-
-/// Rows that lie within `reach` of a row, itself among them; all in spacings of rows.
-double rows_within(double reach) {
-  return 2 * std::floor(reach) + 1;
-}
 
 /// Adds up what a column has across the section: for every other column `away` (in spacings), the rows of it
 /// that are within the horizon.
@@ -120,82 +106,11 @@ void count_lattice(const Parameters& p, FamilyCount whole, WallSize& size) {
   size.neighbours = all.columns / std::max(1.0, size.columns);
 }
 
-/// The memory of a body of `ranks` ranks, without its families: see the parts of column_body.hpp for the
-/// arrays.
-struct BodyMemory {
-  double arrays = 0;    ///< bytes
-  double observed = 0;  ///< bytes, once its fields have been observed
-};
-
-template <class Law>
-BodyMemory body_memory(const Parameters& p, const WallSize& size, double rows, bool doubles, int ranks) {
-  constexpr auto block_rows = static_cast<double>(parallel::block_rows);
-  const double real = doubles ? sizeof(double) : sizeof(float);
-  const double particles = size.columns * rows;
-  const double blocks = std::ceil(rows / block_rows);
-  // Columns in the halos of both sides, where the section is dealt out.
-  const double halo =
-      ranks > 1
-          ? std::min(size.columns, 2 * size.columns * *p.horizon / (2 * std::numbers::pi * p.inner_radius))
-          : 0;
-  const double stride = block_rows * (blocks + 2);
-  const double padded = (size.columns + ranks * halo) * stride;
-  double bytes = 0;
-  bytes += particles * (6 * real8 + real8);                       // displacement, velocity; family volume
-  bytes += padded * 6 * real + size.columns * stride * 4 * real;  // two copies that bonds read; sums
-  bytes += size.bonds * (blocks * sizeof(std::uint16_t));         // words of bonds
-  bytes += size.bonds * (doubles ? sizeof(BondConstants<double>) : sizeof(BondConstants<float>));
-  bytes += size.bonds * (sizeof(std::int32_t) + 2 * sizeof(std::uint16_t));  // other ends, words beyond
-  bytes += size.columns * blocks * (real8 + 1);                              // fracture energy
-  bytes += size.columns * ranks * 100;                                       // section, layer, slots
-  if (!Heterogeneity(p).uniform()) bytes += padded * 2 * real;
-  if (p.spots.thin_the_wall()) bytes += padded + particles * real8;
-  if constexpr (Law::state_based) bytes += padded * real + particles * real8 + size.columns * blocks * 8;
-  return {bytes, particles * 8 * real8};
-}
-
-template <class Law>
-WallMemory memory_of(const Parameters& p, const WallSize& size, const WallUse& use) {
-  const bool doubles = p.bond_precision == Precision::double_precision;
-  const double particles = size.particles();
-  const double families = size.bonds * sizeof(Bond) + size.columns * (real8 + 40);  // bins, the lattice
-  double wall = families * use.ranks;
-  // Calibration's conditions, at first, and their dense matrix with its factors.
-  const double conditions = 6 * (size.rings + 1);
-  const double calibration =
-      surface_correction(p) == SurfaceCorrection::calibrated
-          ? use.ranks * (3 * conditions * conditions * real8 +
-                         size.bonds / std::max(1.0, size.columns) * size.rings * 12 * 40)
-          : 0;
-
-  const BodyMemory body = body_memory<Law>(p, size, size.rows, doubles, use.ranks);
-  double run = body.arrays + body.observed;
-  if (use.outputs) {
-    run += particles * 3 * real8;                                           // positions
-    run += particles * 3 * (use.doubles ? sizeof(double) : sizeof(float));  // as they are written
-    const double across = std::max(1.0, (p.outer_radius - p.inner_radius) / *p.spacing);
-    run += particles * 10 / across * use.threads;  // what the opening's gauge knows of rows
-  }
-  if (use.checkpoints)
-    run += particles * 6 * real8 + size.bonds * std::ceil(size.rows / 16) * sizeof(std::uint16_t);
-  // A second body, and what relaxes it: displacement, velocity and force.
-  if (p.equilibrium_pressure > 0)
-    run = std::max(run, 2 * body.arrays + body.observed + particles * 9 * real8);
-
-  const double piece = std::min(size.rows, static_cast<double>(timed_rows * use.ranks));
-  const double timed = body_memory<Law>(p, size, piece, doubles, use.ranks).arrays;
-  const double periodic_rows = rows_within(*p.horizon * size.rows / p.length) + 1;
-  const BodyMemory stability = body_memory<Law>(p, size, periodic_rows, true, 1);
-  const double lanczos = size.columns * periodic_rows * real8 * 19;
-  // Two unknowns a column; where there is dilatation, those of neighbours' neighbours too.
-  const double entry = real8 + sizeof(std::ptrdiff_t);
-  double accuracy = size.columns * (4 * size.neighbours * entry + 2 * 10 * real8);
-  if constexpr (Law::state_based) accuracy += size.columns * size.neighbours * entry * (2 + 4 * 4 * 2.5);
-  const double check = std::max({timed, stability.arrays + stability.observed + lanczos, accuracy});
-  return {wall + std::max(calibration, run), wall + std::max(calibration, check)};
-}
-
 }  // namespace
+
+double rows_within(double reach) {
+  return 2 * std::floor(reach) + 1;
+}
 
 WallSize wall_size(const Parameters& p) {
   WallSize size;
@@ -208,10 +123,6 @@ WallSize wall_size(const Parameters& p) {
   else
     count_lattice(p, count, size);
   return size;
-}
-
-WallMemory wall_memory(const Parameters& p, const WallSize& size, const WallUse& use) {
-  return with_law(p.law, [&]<class Law>(const Law&) { return memory_of<Law>(p, size, use); });
 }
 
 }  // namespace rhexis::peridynamics
