@@ -16,10 +16,10 @@ enum class Action { run, check, keys, nothing };
 struct Command {
   Action action = Action::nothing;
   std::string file;
-  std::vector<std::string> overrides;  ///< of --set, "key=value"
-  std::string directory;               ///< of -o; empty: results/ and the name of the input file
+  std::vector<std::string> overrides;  ///< the arguments of --set, each "key=value"
+  std::string directory;               ///< the argument of -o; empty: results/ and the name of the input file
   std::string restart;                 ///< checkpoint
-  std::string section;                 ///< of `keys`
+  std::string section;                 ///< the argument of `rhexis keys`
   bool overwrite = false;
   bool quiet = false;
   bool embedded = false;               ///< in another program: runtime::RunOptions

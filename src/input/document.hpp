@@ -30,7 +30,7 @@ struct Entry {
   Value value;
   int line = 0;  ///< from 1; 0 where the entry comes from --set
   int column = 0;
-  std::string argument;  ///< of --set, as typed
+  std::string argument;  ///< the argument of --set, as typed
 
   bool from_file() const { return line > 0; }
 };

@@ -126,8 +126,8 @@ bool holds(const Condition& condition, const ResolvedValue& value) {
              : std::ranges::find(condition.values, written(value.given)) != condition.values.end();
 }
 
-/// Of a key that was given although others, as resolved, leave it without effect; else empty. Keys that this
-/// scene does not have say nothing.
+/// The warning of a key that was given although others, as resolved, leave it without effect; else empty.
+/// Conditions on keys that this scene does not have do not count.
 std::string warning_of(const Parameter& parameter, const ResolvedValue& value, const Resolved& resolved) {
   const std::vector<Condition>& one_of = parameter.only_with;
   if (one_of.empty() || value.origin == "default") return {};

@@ -28,7 +28,7 @@ struct ResolvedValue {
   std::string key;
   Value given;  ///< as in the file, on the command line, or in the declaration
   SiValue value;
-  std::string unit;    ///< of `value`, as declared
+  std::string unit;    ///< unit of `value`, as declared
   std::string origin;  ///< "file", "--set" or "default"
   std::string place;   ///< opens a message about it: `a.toml:12: vessel.length = "1 mm"`
 };
@@ -37,7 +37,7 @@ struct ResolvedValue {
 struct Resolved {
   std::string file;
   std::vector<ResolvedValue> values;
-  std::vector<std::string> warnings;  ///< of keys that were given and have no effect
+  std::vector<std::string> warnings;  ///< a warning for each key that was given and has no effect
 };
 
 /// Fills the target of every parameter from the document, or from its default. Repeated ones are resolved

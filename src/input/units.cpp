@@ -190,7 +190,7 @@ double to_si(std::string_view text, std::string_view unit) {
     throw InputError(
         fmt::format("'{}' is not a known unit; write {}", written.unit, example_with(written.digits, unit)));
   if (!same_dimension(given.get(), expected.get())) {
-    // Of what has no dimension, not all is an angle.
+    // Not every number without dimension is an angle.
     const Kind* kind = ut_is_dimensionless(given.get()) ? nullptr : kind_of(given.get());
     throw InputError(
         fmt::format("'{}' {}, but {} is expected, {}", written.unit,

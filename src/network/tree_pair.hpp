@@ -40,7 +40,7 @@ class TreePair {
 
   const TreeRules& rules() const { return rules_; }
   int generations() const { return rules_.generations; }
-  std::uint64_t places() const { return (std::uint64_t{1} << generations()) - 1; }  ///< of each tree
+  std::uint64_t places() const { return (std::uint64_t{1} << generations()) - 1; }  ///< places of a vessel in each tree
   std::uint64_t vessels() const { return vessels_of(generations()); }
   static constexpr std::uint64_t vessels_of(int generations) { return (std::uint64_t{2} << generations) - 2; }
   std::uint64_t junctions() const { return 3 * (std::uint64_t{1} << (generations() - 1)); }
@@ -64,7 +64,7 @@ class TreePair {
   double first_share(std::uint64_t place) const;
   /// (r / r_root)^xi of an artery: a product down from the root, O(k).
   double capacity(std::uint64_t place) const;
-  double radius_of(double capacity) const { return radius_(capacity); }  ///< of an artery, m
+  double radius_of(double capacity) const { return radius_(capacity); }  ///< radius of an artery of that capacity, m
   const IntervalTable& radius_table() const { return radius_; }
   /// The vessel's own factor on its length (1 without spread).
   double length_factor(std::uint64_t place) const;
@@ -103,7 +103,7 @@ class TreePair {
 
   TreeRules rules_;
   IntervalTable radius_;
-  double least_offset_ = 0, most_offset_ = 0;  ///< of the wider daughter's share above 1/2
+  double least_offset_ = 0, most_offset_ = 0;  ///< by how much the wider daughter's share exceeds 1/2
   std::vector<double> reach_per_radius_;  ///< [k + 1] how far a symmetric subtree reaches along the axis, in
                                           ///< radii of its root
   double reach_ = 0;                      ///< m, from inlet to midplane

@@ -13,7 +13,7 @@ namespace {
 /// below its share of that generation.
 struct PlaceSet {
   int cut;
-  std::uint64_t first, past;  ///< of the share, within generation `cut`
+  std::uint64_t first, past;  ///< range of the part's vessels within generation `cut`
   bool top;
 
   bool has(std::uint64_t place) const {

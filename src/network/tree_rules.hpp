@@ -58,8 +58,8 @@ struct TreeRules {
   double narrower_share(double gamma) const;  ///< what that leaves
   /// Length by the rule, before the vessel's own factor (m).
   double length(int generation, double radius) const;
-  /// Of the curve `length_by_radius`: straight between its points in logarithms of both; the outer lines go
-  /// on.
+  /// Length (m) on the curve `length_by_radius`: straight between its points in logarithms of both, and
+  /// beyond them along the outer lines.
   template <class Real>
   Real length_at(Real of_radius) const {
     std::size_t upper = 1;

@@ -9,8 +9,8 @@
 namespace rhexis::parallel {
 
 struct Link {
-  double latency_s;      ///< of an empty message
-  double bandwidth_B_s;  ///< of long ones
+  double latency_s;      ///< time of an empty message
+  double bandwidth_B_s;  ///< bandwidth of long messages
 };
 
 /// Between the first rank and the last, the best of several messages to and fro; none for one rank. Takes

@@ -36,8 +36,8 @@ struct Partition {
 /// What cuts cost each side of them.
 struct CutCosts {
   double bonds_across = 0;  ///< a row, by a cut between columns: evaluated by both sides
-  double halo_columns = 0;  ///< of such a cut; none where both sides share memory
-  double halo_rows = 0;     ///< of a cut between blocks
+  double halo_columns = 0;  ///< columns that a cut between columns adds; none where both sides share memory
+  double halo_rows = 0;     ///< rows that a cut between blocks of rows adds
 };
 
 /// The split of `ranks` into column parts x block parts of a tube with the least work on the busiest rank:

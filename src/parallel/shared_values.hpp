@@ -14,7 +14,7 @@ namespace rhexis::parallel {
 struct SharedLink {
   int rank = 0;
   std::vector<std::uint32_t> owned;     ///< indices of points that this rank owns and the other one has too
-  std::vector<std::uint32_t> borrowed;  ///< of points that the other one owns and this rank has too
+  std::vector<std::uint32_t> borrowed;  ///< places of points that the other rank owns and this rank has too
 };
 
 class SharedValues {

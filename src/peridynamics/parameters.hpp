@@ -86,7 +86,7 @@ struct Parameters {
   std::optional<double> horizon;  ///< m
   double horizon_ratio = 3.5;     ///< horizon / spacing where `horizon` is "auto"
   std::vector<double> lattice_shift{0.5,
-                                    0.5};  ///< of the nearest column from the axis, in spacings, two numbers
+                                    0.5};  ///< offset of the nearest column from the axis, in spacings: along x and along y
   double rotation = 0;                     ///< rad
   Precision bond_precision = Precision::single_precision;
 

@@ -89,7 +89,7 @@ class Watch {
     thread_.join();
   }
 
-  /// Again where a library has put its own handlers in between.
+  /// Installs our handlers, again where a library has put its own in between.
   void catch_signals() {
     struct sigaction action = {};
     action.sa_flags = SA_RESTART;
@@ -110,7 +110,7 @@ class Watch {
  private:
   Watch() { sem_init(&wake, 0, 0); }
 
-  /// Those of an earlier run in the same process.
+  /// Forgets the signals of an earlier run in the same process.
   void forget_signals() {
     first_signal = fatal = 0;
     for (auto& times : noted) times = 0;
@@ -123,12 +123,12 @@ class Watch {
       if (sem_wait(&wake) != 0) continue;
       if (const int signal = fatal) end_at_once(signal);
       for (std::size_t i = 0; i < watched.size(); ++i) {
-        for (; seen_[i] < noted[i]; ++seen_[i]) take_notice(watched[i]);
+        for (; seen_[i] < noted[i]; ++seen_[i]) respond_to(watched[i]);
       }
     }
   }
 
-  void take_notice(int signal) {
+  void respond_to(int signal) {
     if (++count_ == 1) {
       if (writes_) fail_records(interrupted_by(signal) + ", and ended before its state was saved");
       say(fmt::format("{}: {}", signal_name(signal),

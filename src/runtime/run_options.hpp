@@ -29,7 +29,7 @@ struct RunOptions {
   OutputFunction on_output = {};  ///< may be empty
   std::vector<std::string> command = {};    ///< as it was called
   double started = 0;                       ///< s, of the clock
-  std::shared_ptr<Pictures> pictures = {};  ///< of the runs that this one is one of; null: it has its own
+  std::shared_ptr<Pictures> pictures = {};  ///< shared by the runs of a cascade or an ensemble; null: the run has its own
   std::optional<output::ResultsFolder> folder = {};  ///< that has been taken for it; none: the run takes it
 };
 

@@ -27,7 +27,7 @@ struct Results {
   std::optional<double> max_displacement_at_onset_m = {};
   std::optional<double> max_displacement_m = {}, max_damage = {};
   std::optional<double> rupture_length_m = {};  ///< axial extent of damage >= 0.2
-  std::optional<double> opening_area_m2 = {};   ///< of the holes in the wall, at the end
+  std::optional<double> opening_area_m2 = {};   ///< area of the holes in the wall, at the end
   std::optional<double> energy_drift = {};
   nlohmann::ordered_json network = studies::network_record();
   nlohmann::ordered_json coupling = nullptr;  ///< the vessel's place in the network, and what they exchanged

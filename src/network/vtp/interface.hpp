@@ -22,7 +22,7 @@ struct Lines {
   std::vector<std::int64_t> connectivity;  ///< checked by nobody yet
   std::int64_t first_cell = 0;             ///< the file's number of line 0: vertices are counted before it
   std::vector<Array> point_arrays;         ///< all numeric ones, as the file has them
-  std::vector<Array> cell_arrays;          ///< of the lines only
+  std::vector<Array> cell_arrays;          ///< the cell arrays of the lines only
 
   std::size_t points() const { return coordinates.size() / 3; }
   std::size_t lines() const { return offsets.size() - 1; }

@@ -16,7 +16,7 @@ namespace rhexis::peridynamics {
 struct CrossSection {
   std::vector<double> x, y;              ///< m, from the vessel's axis
   std::vector<double> area;              ///< m2
-  std::int32_t rings = 0, per_ring = 0;  ///< of a polar one
+  std::int32_t rings = 0, per_ring = 0;  ///< rings, and columns in each, of a polar cross-section; else 0
 
   std::size_t size() const { return x.size(); }
 };

@@ -22,7 +22,7 @@ constexpr auto name_table(ScatterLaw) {
 
 /// Section [scatter]: the random part.
 struct Scatter {
-  ScatterLaw law = ScatterLaw::lognormal;         ///< of the factors
+  ScatterLaw law = ScatterLaw::lognormal;         ///< the distribution of the factors
   double critical_stretch = 0;                    ///< coefficient of variation
   double stiffness = 0;                           ///< coefficient of variation
   std::optional<double> correlation_length = {};  ///< m

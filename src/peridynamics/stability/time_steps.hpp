@@ -12,7 +12,7 @@ namespace rhexis::peridynamics {
 struct TimeSteps {
   double stable = 0;  ///< s, a bound below the longest stable step (see linear_limit.hpp)
   double step = 0;    ///< s, the one to take
-  long count = 0;     ///< of them until time.end, the last one whole
+  long count = 0;     ///< time steps until time.end, the last one whole
 };
 
 /// The stable time step (s) of the wall's law, by bond_step.hpp and dilatation_bound.hpp; for bonds that are

@@ -12,7 +12,7 @@ double lame_displacement(const Parameters& p, double pressure, double r);
 
 /// Static, infinitesimal expansion of an endless vessel against Lame's solution.
 struct ElasticError {
-  double relative_l2 = 0;  ///< of the radial displacement over the wall
+  double relative_l2 = 0;  ///< relative L2 error of the radial displacement over the wall
   double spread = 0;       ///< largest / smallest ratio to Lame's solution, less 1
 };
 

@@ -29,7 +29,7 @@ class NetworkCoupling {
   bool at_rest() const { return at_rest_; }
   /// The vessel that is simulated; where nothing is, the one at highest risk, if there is one.
   const hemodynamics::NetworkVessel& chosen() const { return chosen_; }
-  double risk() const { return risk_; }  ///< of that vessel (studies/screening/screening.hpp)
+  double risk() const { return risk_; }  ///< the vessel's risk (studies/screening/screening.hpp)
   const hemodynamics::NetworkFlow& flow() const { return network_.flow(); }
 
   /// That vessel as a scene, with its load and its wall, resolved; `coupled()` is there from then on.

@@ -13,7 +13,7 @@ namespace rhexis::studies {
 
 /// How a network is stored.
 struct NetworkFilesPlan {
-  std::string title, version;  ///< of the run and of the program, for the files of lines
+  std::string title, version;  ///< title of the run and version of the program, for the files of lines
   std::vector<output::SeriesFormat> formats;
   bool vtp = false;  ///< network.vtp besides
 };

@@ -19,7 +19,7 @@
 namespace rhexis::screening {
 
 struct Criterion {
-  double critical_stretch = 0;  ///< of a wall of strength 1
+  double critical_stretch = 0;  ///< critical stretch of a wall of strength 1
   double young_modulus = 1;     ///< Pa
   double poisson_ratio = 0.25;
   double outside_pressure = 0;  ///< Pa, taken off the blood's
@@ -35,14 +35,14 @@ struct RankedVessel {
   double alike = 1;          ///< vessels that it stands for: all of a generation where they are alike
 };
 
-/// Of one generation; index 0 for arteries and all that are not veins, 1 for veins.
+/// What is known of one generation; index 0 for arteries and all that are not veins, 1 for veins.
 struct GenerationRisk {
   std::array<double, 2> vessels{}, above{}, most{};  ///< counts; of those with a risk above 1; largest risk
   std::array<std::vector<std::uint64_t>, 2> counts;  ///< [bins.count]
 };
 
 struct Screening {
-  hemodynamics::Bins bins;                  ///< of risk; the outermost hold all beyond
+  hemodynamics::Bins bins;                  ///< histogram of the risk; the outermost bins hold all beyond
   std::vector<GenerationRisk> generations;  ///< [0]: of vessels without a generation, then from the root's
   std::vector<RankedVessel> top;            ///< highest risk first, then lowest number; risks above 0 only
   double vessels = 0, above = 0;
@@ -62,7 +62,7 @@ class RiskTally {
            std::size_t count);
   void add(const RiskTally& other);
 
-  /// Of all ranks' tallies. Collective.
+  /// The sum of all ranks' tallies. Collective.
   Screening result(parallel::Communicator comm) const;
 
  private:

@@ -159,7 +159,7 @@ class TreeScreening::Consumer : public hemodynamics::VesselConsumer {
   const Context& c_;
   RiskTally tally_;
   hwy::AlignedFreeUniquePtr<double[]> memory_;
-  std::size_t room_ = 0;  ///< of each array
+  std::size_t room_ = 0;  ///< vessels for which each array has room
   double *risk_ = nullptr, *strength_ = nullptr, *thickness_ = nullptr;
 };
 

@@ -34,7 +34,7 @@ class Program:
     path: pathlib.Path
     mpirun: tuple
     memory_kib: int = 3 << 20  # of address space, for each rank
-    processor_s: int = 20
+    processor_s: int = 60
     seconds: float = 900  # of waiting, on however busy a machine
 
     def limits(self):
