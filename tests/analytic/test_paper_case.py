@@ -28,13 +28,17 @@ class PaperCase(unittest.TestCase):
         self.assertEqual(results["bonds"], 3542896)
         self.assertEqual(results["family_max"], 160)
         self.assertEqual(results["steps"], 4500)
-        # The paper: damage of 20 to 30 % at 1.85 ms under about 0.5 mm; a rupture of about 8 mm.
-        self.assertGreater(results["rupture_onset_s"], 1.7e-3)
-        self.assertLess(results["rupture_onset_s"], 2.1e-3)
-        self.assertGreater(results["max_displacement_at_onset_m"], 0.35e-3)
-        self.assertLess(results["max_displacement_at_onset_m"], 0.55e-3)
-        self.assertGreater(results["rupture_length_m"], 7e-3)
-        self.assertLess(results["rupture_length_m"], 10e-3)
+        # (name, the paper's range, what this program finds and by how much another build may differ). The paper: damage of
+        # 20 to 30 % at 1.85 ms under about 0.5 mm; a rupture of about 8 mm. Onset may move by a step of 0.5 us, and the
+        # fragments after it, which are chaotic, by a row.
+        for name, low, high, value, tolerance in (
+                ("rupture_onset_s", 1.7e-3, 2.1e-3, 2.051e-3, 1.1e-6),
+                ("pressure_at_onset_Pa", 190e3, 280e3, 216950.2, 120),
+                ("max_displacement_at_onset_m", 0.35e-3, 0.55e-3, 0.409015e-3, 1e-6),
+                ("rupture_length_m", 7e-3, 10e-3, 9.6e-3, 0.21e-3)):
+            with self.subTest(name):
+                self.assertTrue(low < results[name] < high, results[name])
+                self.assertAlmostEqual(results[name], value, delta=tolerance)
         self.assertLess(abs(results["energy_drift"]), 1e-4)
         self.assertEqual(len(rows), 91)
         self.assertTrue(all(float(row["max_damage"]) < 0.2 for row in rows if float(row["time_s"]) < 1.7e-3))

@@ -117,9 +117,11 @@ void limit(int resource, std::uintmax_t most) {
 
 /// Signals end the child without a word, and files far smaller than what they ask for do not get it.
 void restrain_this_process(std::uintmax_t bytes) {
+  struct sigaction by_default = {};
+  by_default.sa_handler = SIG_DFL;
   for (const int number :
        {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGTERM, SIGINT, SIGHUP, SIGPIPE})
-    std::signal(number, SIG_DFL);
+    sigaction(number, &by_default, nullptr);
   if (const int nothing = open("/dev/null", O_WRONLY | O_CLOEXEC); nothing >= 0) {
     dup2(nothing, STDOUT_FILENO);
     dup2(nothing, STDERR_FILENO);
