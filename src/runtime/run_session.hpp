@@ -30,7 +30,7 @@ struct Work {
   /// Directed evaluations of bonds by this rank, and what one takes, FLOP.
   std::optional<std::int64_t> bond_evaluations = {};
   double flop_per_evaluation = 0;
-  std::optional<parallel::Traffic> traffic = {};  ///< of this rank's halos
+  std::optional<parallel::Traffic> traffic = {};  ///< bytes and messages of this rank's halos
   std::optional<double> network_flop = {};        ///< FLOP of a network's flow, on all ranks
 };
 

@@ -53,6 +53,13 @@ TEST_P(Lame, PlaneStrainErrorIsTheStatedOne) {
   test::expect_stated_error(p, GetParam().error, GetParam().spread);
 }
 
+TEST(ElasticError, IsUnknownWhereItWouldTakeTooLong) {
+  const Parameters p = parameters_of({"polar", "calibrated", "nonlocal", 5, 0, 0});
+  const BodySetup setup = test::setup_of(p, 1e-7);
+  EXPECT_TRUE(elastic_error(p, setup));
+  EXPECT_FALSE(elastic_error(p, setup, 10.0 * static_cast<double>(setup.families->bonds.size())));
+}
+
 // The engine, brought to rest, is where the linear solution says.
 class AtRest : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Discretisations, AtRest,

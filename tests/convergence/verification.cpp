@@ -7,6 +7,7 @@
 //   verification free_ends DISCRETISATION ROWS
 //
 // DISCRETISATION: cross-section, surface correction, layer, spacings across the wall, horizon in spacings.
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -36,7 +37,7 @@ int run(int argc, char** argv) {
   if (study == "elasticity") {
     const peridynamics::Parameters p = vessel(d);
     const auto setup = test::setup_of(p, 1e-7);
-    const peridynamics::ElasticError e = peridynamics::elastic_error(p, setup);
+    const peridynamics::ElasticError e = peridynamics::elastic_error(p, setup, INFINITY).value();
     std::puts("columns,bonds_a_particle,stable_step_s,error,spread");
     std::printf(
         "%zu,%.10g,%.10g,%.10g,%.10g\n", setup.lattice.section.size(),

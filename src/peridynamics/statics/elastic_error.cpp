@@ -124,7 +124,8 @@ double lame_displacement(const Parameters& p, double pressure, double r) {
   return (1 + nu) / p.young_modulus * pressure * inner2 / (outer2 - inner2) * ((1 - 2 * nu) * r + outer2 / r);
 }
 
-ElasticError elastic_error(const Parameters& p, const BodySetup& setup) {
+std::optional<ElasticError> elastic_error(const Parameters& p, const BodySetup& setup,
+                                          double most_multiplications) {
   const CrossSection& s = setup.lattice.section;
   Eigen::VectorXd load(static_cast<Eigen::Index>(2 * s.size()));
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -138,7 +139,11 @@ ElasticError elastic_error(const Parameters& p, const BodySetup& setup) {
   });
   Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper> solver(matrix);
   solver.setTolerance(1e-8);
+  const double most_iterations = most_multiplications / static_cast<double>(matrix.nonZeros());
+  if (most_iterations < static_cast<double>(2 * load.size()))
+    solver.setMaxIterations(static_cast<Eigen::Index>(most_iterations));
   Eigen::VectorXd u = solver.solve(load);
+  if (solver.info() == Eigen::NoConvergence && solver.maxIterations() < 2 * load.size()) return std::nullopt;
   if (solver.info() != Eigen::Success) throw RunError("the bonds do not hold the wall together");
   balance(s, u);
 
@@ -153,7 +158,7 @@ ElasticError elastic_error(const Parameters& p, const BodySetup& setup) {
     least = std::min(least, radial / exact);
     most = std::max(most, radial / exact);
   }
-  return {std::sqrt(error / size), most / least - 1};
+  return ElasticError{.relative_l2 = std::sqrt(error / size), .spread = most / least - 1};
 }
 
 double elastic_error_bytes(const Parameters& p, const WallSize& size) {
