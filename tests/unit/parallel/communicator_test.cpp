@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "parallel/exact_sum.hpp"
 
@@ -30,6 +31,23 @@ TEST(Communicator, ReducesAndBroadcasts) {
   EXPECT_EQ(pair.x, 0.5);
   EXPECT_EQ(pair.n, 7);
   EXPECT_EQ(world.node_count(), 1);
+}
+
+TEST(MpiLibrary, LeavesTheMpiOfOthersRunning) {
+  int argc = 0;
+  char** argv = nullptr;
+  { const MpiLibrary second(argc, argv); }
+  EXPECT_EQ(Communicator::world().all_reduce(std::int64_t{1}, Reduce::sum), Communicator::world().size());
+}
+
+TEST(ThreadCount, ReturnsToTheCallers) {
+  const int before = thread_count();
+  ASSERT_EQ(setenv("OMP_NUM_THREADS", "3", 1), 0);
+  {
+    const ThreadCount three;
+    EXPECT_EQ(thread_count(), 3);
+  }
+  EXPECT_EQ(thread_count(), before);
 }
 
 TEST(ExactSum, DoesNotDependOnOrderOrRanks) {
