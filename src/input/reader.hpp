@@ -9,7 +9,7 @@
 ///   record["input"] = to_json(resolved);
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <variant>
 #include <vector>

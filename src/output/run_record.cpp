@@ -23,22 +23,22 @@ std::string text_of(const Json& document) {
 
 }  // namespace
 
-RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance, const Values& results,
-                     const Values& performance, parallel::Communicator communicator)
+RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance, const Values& input,
+                     const Values& results, const Values& performance, parallel::Communicator communicator)
     : path_(std::move(path)), communicator_(communicator) {
-  document_ = Json::object({{"version", provenance.version},
-                            {"commit", provenance.commit},
-                            {"command", provenance.command},
-                            {"started", provenance.started},
-                            {"file", provenance.file},
-                            {"checkpoint", or_null(provenance.checkpoint)},
-                            {"first_step", or_null(provenance.first_step)},
-                            {"input", provenance.input},
-                            {"warnings", Json::array()}});
+  document_ = std::make_unique<Json>(Json::object({{"version", provenance.version},
+                                                   {"commit", provenance.commit},
+                                                   {"command", provenance.command},
+                                                   {"started", provenance.started},
+                                                   {"file", provenance.file},
+                                                   {"checkpoint", or_null(provenance.checkpoint)},
+                                                   {"first_step", or_null(provenance.first_step)},
+                                                   {"input", input},
+                                                   {"warnings", Json::array()}}));
   parallel::on_root<RunError>(communicator_, [&] {
-    document_["status"] = nullptr;
-    document_["results"] = results;
-    document_["performance"] = performance;
+    (*document_)["status"] = nullptr;
+    (*document_)["results"] = results;
+    (*document_)["performance"] = performance;
     write(running_status);
     folder_.emplace(path_.parent_path());
   });
@@ -49,15 +49,17 @@ RunRecord::RunRecord(std::filesystem::path path, const Provenance& provenance, c
   }
 }
 
+RunRecord::~RunRecord() = default;
+
 void RunRecord::warn(const std::string& text) {
   const std::lock_guard lock(mutex_);
-  document_["warnings"].push_back(text);
+  (*document_)["warnings"].push_back(text);
 }
 
 void RunRecord::know(const Values& results) {
   if (!communicator_.is_root()) return;
   const std::lock_guard lock(mutex_);
-  document_["results"] = results;
+  (*document_)["results"] = results;
 }
 
 void RunRecord::complete(const Values& results, const Values& performance) {
@@ -73,7 +75,7 @@ void RunRecord::fail_alone(const std::string& reason) noexcept {
     const std::lock_guard lock(mutex_);
     const std::string on_disk = recorded_status(path_);
     const bool told_by_another =
-        !on_disk.empty() && on_disk != running_status && on_disk != document_.value("status", "");
+        !on_disk.empty() && on_disk != running_status && on_disk != document_->value("status", "");
     if (ended_ || told_by_another) return;
     spare_.reset();
     write("failed: " + reason);
@@ -86,8 +88,8 @@ void RunRecord::end(const std::string& status, const Values& results, const Valu
     const std::lock_guard lock(mutex_);
     ended_ = true;
     spare_.reset();
-    document_["results"] = results;
-    document_["performance"] = performance;
+    (*document_)["results"] = results;
+    (*document_)["performance"] = performance;
     write(status);
   });
 }
@@ -95,10 +97,10 @@ void RunRecord::end(const std::string& status, const Values& results, const Valu
 /// By the calling rank alone.
 void RunRecord::write(const std::string& status) {
   if (folder_) folder_->require_unchanged();
-  document_["status"] = status;
+  (*document_)["status"] = status;
   for (const char* part : {"results", "performance"})
-    if (!document_.contains(part)) document_[part] = nullptr;  // only the first rank has them
-  write_atomically(path_, text_of(document_));
+    if (!document_->contains(part)) (*document_)[part] = nullptr;  // only the first rank has them
+  write_atomically(path_, text_of(*document_));
 }
 
 std::string recorded_status(const std::filesystem::path& path) {

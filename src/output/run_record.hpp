@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +25,6 @@ struct Provenance {
   std::string started = {};                     ///< 2026-11-29T00:18:13Z
   std::optional<std::string> checkpoint = {};   ///< that the run goes on from
   std::optional<std::int64_t> first_step = {};  ///< of that checkpoint
-  nlohmann::ordered_json input = nullptr;       ///< the whole configuration as resolved
 };
 
 /// The status of a run that has not told its end.
@@ -42,10 +41,12 @@ using Values = nlohmann::ordered_json;
 /// done.
 class RunRecord {
  public:
-  /// Writes the file with status "running". `results` and `performance` are objects of names and values, of
-  /// which those that are not known yet are null: readers find every name from the first moment on.
-  RunRecord(std::filesystem::path path, const Provenance& provenance, const Values& results,
-            const Values& performance, parallel::Communicator communicator);
+  /// Writes the file with status "running". `input` is the whole configuration as resolved; `results` and
+  /// `performance` are objects of names and values, of which those that are not known yet are null: readers
+  /// find every name from the first moment on.
+  RunRecord(std::filesystem::path path, const Provenance& provenance, const Values& input,
+            const Values& results, const Values& performance, parallel::Communicator communicator);
+  ~RunRecord();
 
   /// Something that the user was told; is written with what comes next.
   void warn(const std::string& text);
@@ -67,7 +68,7 @@ class RunRecord {
 
   std::mutex mutex_;  ///< of all below
   std::filesystem::path path_;
-  nlohmann::ordered_json document_;
+  std::unique_ptr<Values> document_;
   parallel::Communicator communicator_;
   std::optional<FileIdentity> folder_;  ///< of the first rank
   bool ended_ = false;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -27,7 +27,8 @@ struct Performance {
   std::optional<double> message_latency_s = {}, message_bandwidth_B_s = {};
   std::optional<std::int64_t> peak_rss_bytes = {};  ///< sum over all ranks
   std::optional<double> node_hours = {};
-  std::optional<double> energy_J = {};  ///< taken by all nodes' processors, whoever used them; none where they do not tell
+  std::optional<double> energy_J =
+      {};  ///< taken by all nodes' processors, whoever used them; none where they do not tell
 };
 
 void to_json(nlohmann::ordered_json& json, const Performance& performance);

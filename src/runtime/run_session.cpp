@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
@@ -42,11 +43,11 @@ void RunSession::open_record(std::optional<std::int64_t> first_step) {
       .file = description_.file,
       .started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
                              fmt::gmtime(std::time(nullptr) - std::lround(seconds_now() - started_))),
-      .first_step = first_step,
-      .input = *description_.input};
+      .first_step = first_step};
   if (!options_.restart.empty()) provenance.checkpoint = options_.restart.string();
   folder_->remove_earlier_results();
-  record_.emplace(folder_->claim("run.json"), provenance, state_.results(), Performance{}, comm_);
+  record_.emplace(folder_->claim("run.json"), provenance, *description_.input, state_.results(),
+                  Performance{}, comm_);
   signals_.emplace(*record_, folder_->path(), comm_.is_root(), options_.embedded);
 }
 

@@ -2,6 +2,8 @@
 // Sections that may stand any number of times, [[mark]]: each fills one element of a list.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.hpp"
 #include "input/keys.hpp"
 #include "input/reader.hpp"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -35,9 +36,8 @@ std::vector<std::string> words(const std::string& text) {
 
 TEST(RunRecord, HasAllKeysFromTheFirstMomentOn) {
   const test::TemporaryDirectory directory;
-  RunRecord record(directory / "run.json",
-                   {.version = "0.1.0", .commit = "abc", .input = {{"vessel", {{"length", 1.0}}}}}, nothing,
-                   nothing, world);
+  RunRecord record(directory / "run.json", {.version = "0.1.0", .commit = "abc"},
+                   {{"vessel", {{"length", 1.0}}}}, nothing, nothing, world);
   const Json json = Json::parse(test::text_of(directory / "run.json"));
   EXPECT_EQ(keys_of(json),
             words("version commit command started file checkpoint first_step input warnings status "
@@ -55,7 +55,7 @@ TEST(RunRecord, TellsHowTheRunEnded) {
   RunRecord record(
       directory / "run.json",
       {.command = {"rhexis", "run", "a.toml"}, .checkpoint = "step_000150.h5", .first_step = 150}, nothing,
-      nothing, world);
+      nothing, nothing, world);
   record.warn("time.end is not a whole number of steps");
   record.complete({{"particles", 54800},
                    {"energy_drift", std::nan("")},
@@ -84,7 +84,7 @@ TEST(RunRecord, TellsHowTheRunEndedOnAFullDisk) {
   const test::TemporaryDirectory directory;
   const test::SmallDisk disk(directory.path(), 256 * 1024);
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
-  RunRecord record(directory / "run.json", {}, nothing, nothing, world);
+  RunRecord record(directory / "run.json", {}, nothing, nothing, nothing, world);
   if (world.is_root()) {
     std::ofstream all(directory / "all");
     while (all << std::string(4096, 'x') << std::flush) {
@@ -97,7 +97,7 @@ TEST(RunRecord, TellsHowTheRunEndedOnAFullDisk) {
 
 TEST(RunRecord, OneRankAloneMayTellHowTheRunEnded) {
   const test::TemporaryDirectory directory;
-  RunRecord record(directory / "run.json", {.version = "0.1.0"}, nothing, nothing, world);
+  RunRecord record(directory / "run.json", {.version = "0.1.0"}, nothing, nothing, nothing, world);
   if (world.rank() == world.size() - 1) record.fail_alone("out of memory");
   world.barrier();
   const Json json = Json::parse(test::text_of(directory / "run.json"));
@@ -115,7 +115,7 @@ TEST(RunRecord, OneRankAloneMayTellHowTheRunEnded) {
 
 TEST(RunRecord, WhatIsKnownIsToldByAnEarlyEndButNothingAfterTheEnd) {
   const test::TemporaryDirectory directory;
-  RunRecord record(directory / "run.json", {}, nothing, nothing, world);
+  RunRecord record(directory / "run.json", {}, nothing, nothing, nothing, world);
   record.know({{"steps", 40}});
   for (const std::string reason : {"interrupted, and ended before its state was saved", "interrupted"}) {
     if (world.is_root()) record.fail_alone(reason);
@@ -136,7 +136,7 @@ TEST(RunRecord, AFolderOfAnotherRunIsLeftAlone) {
   const auto folder = directory / "out";
   if (world.is_root()) std::filesystem::create_directory(folder);
   world.barrier();
-  RunRecord record(folder / "run.json", {}, nothing, nothing, world);
+  RunRecord record(folder / "run.json", {}, nothing, nothing, nothing, world);
   if (world.is_root()) {
     std::filesystem::rename(folder, directory / "moved");
     std::filesystem::create_directory(folder);
@@ -161,8 +161,8 @@ TEST(RunRecord, AStatusIsReadFromWhateverIsThere) {
 
 TEST(RunRecord, AFolderThatIsNotThereIsARunErrorOnAllRanks) {
   const test::TemporaryDirectory directory;
-  const std::string message =
-      test::message_of<RunError>([&] { RunRecord(directory / "no/run.json", {}, nothing, nothing, world); });
+  const std::string message = test::message_of<RunError>(
+      [&] { RunRecord(directory / "no/run.json", {}, nothing, nothing, nothing, world); });
   EXPECT_NE(message.find("no/run.json: cannot create the file"), std::string::npos) << message;
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "output/results_folder.hpp"
 #include "output/run_record.hpp"
 #include "temporary_directory.hpp"
@@ -19,7 +21,7 @@ TEST(UnfinishedRun, IsAtWorkAsLongAsItsFolderIsLockedAndThenDead) {
   EXPECT_FALSE(output::unfinished_run(directory.path()));
   std::optional<output::ResultsFolder> held;
   held.emplace(output::FolderPlan{.directory = directory.path()}, world);
-  { const output::RunRecord record(directory / "run.json", {}, nullptr, nullptr, world); }
+  { const output::RunRecord record(directory / "run.json", {}, nullptr, nullptr, nullptr, world); }
   ASSERT_TRUE(output::unfinished_run(directory.path()));
   EXPECT_EQ(output::unfinished_run(directory.path())->state, State::at_work);
   world.barrier();
