@@ -15,7 +15,7 @@
 
 namespace rhexis::networks {
 
-using network::Condition;
+using network::BoundaryCondition;
 using network::Graph;
 
 inline Graph graph(std::size_t junctions,
@@ -29,12 +29,12 @@ inline Graph graph(std::size_t junctions,
   return result;
 }
 
-inline Condition pressure(std::uint32_t junction, double value, double resistance = 0) {
-  return {junction, Condition::Kind::pressure, value, resistance};
+inline BoundaryCondition pressure(std::uint32_t junction, double value, double resistance = 0) {
+  return {junction, BoundaryCondition::Kind::pressure, value, resistance};
 }
 
-inline Condition inflow(std::uint32_t junction, double value) {
-  return {junction, Condition::Kind::flow, value, 0};
+inline BoundaryCondition inflow(std::uint32_t junction, double value) {
+  return {junction, BoundaryCondition::Kind::flow, value, 0};
 }
 
 /// An arterial tree of k generations and its venous mirror, joined leaf to leaf: 2 (2^k - 1) vessels,

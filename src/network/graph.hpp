@@ -40,7 +40,7 @@ struct Graph {
 
 /// What is known at a junction. A pressure may lie behind a resistance (a peripheral bed that is not
 /// modelled): flow into it is (p_junction - value) / resistance.
-struct Condition {
+struct BoundaryCondition {
   enum class Kind : std::uint8_t { pressure, flow };
   std::uint32_t junction = 0;
   Kind kind = Kind::pressure;
@@ -51,7 +51,7 @@ struct Condition {
 /// A network and what its file says of its boundary.
 struct BoundedGraph {
   Graph graph;
-  std::vector<Condition> conditions;
+  std::vector<BoundaryCondition> conditions;
 };
 
 }  // namespace rhexis::network

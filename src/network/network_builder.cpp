@@ -59,9 +59,9 @@ void NetworkBuilder::add(const JunctionRow& row, const std::string& where) {
   }
   if (row.pressure) {
     network_.conditions.push_back(
-        {number, Condition::Kind::pressure, *row.pressure, row.resistance.value_or(0)});
+        {number, BoundaryCondition::Kind::pressure, *row.pressure, row.resistance.value_or(0)});
   }
-  if (row.flow) network_.conditions.push_back({number, Condition::Kind::flow, *row.flow, 0});
+  if (row.flow) network_.conditions.push_back({number, BoundaryCondition::Kind::flow, *row.flow, 0});
 }
 
 std::uint32_t NetworkBuilder::junction(const std::string& id, const std::string& column,
@@ -126,7 +126,7 @@ BoundedGraph NetworkBuilder::finish(const std::string& file) {
   for (const auto& ends : {g.from, g.to}) {
     for (const std::uint32_t j : ends) has_vessel[j] = true;
   }
-  for (const Condition& c : network_.conditions) {
+  for (const BoundaryCondition& c : network_.conditions) {
     if (!has_vessel[c.junction]) {
       throw InputError(file + ": junction " + g.name_of_junction(c.junction) +
                        ", where a pressure or a flow is given, is no vessel's end");

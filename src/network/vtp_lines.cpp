@@ -136,7 +136,7 @@ void Reading::number_junctions() {
   if (!renumbered) graph.junction_name.clear();
   for (const std::size_t p : from_) graph.from.push_back(number[p]);
   for (const std::size_t p : to_) graph.to.push_back(number[p]);
-  for (Condition condition : condition_) {
+  for (BoundaryCondition condition : condition_) {
     const std::uint32_t point = condition.junction;
     condition.junction = number[point];
     if (condition.junction == none) fail(fmt::format("point {}: a condition, but no line goes there", point));

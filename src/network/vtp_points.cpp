@@ -80,11 +80,11 @@ void Reading::find_conditions() {
   has_condition_.assign(lines_.points(), 0);
   const Array* pressure = find(lines_.point_arrays, "pressure_condition");
   const Array* flow = find(lines_.point_arrays, "flow_condition");
-  if (pressure != nullptr) add_condition(*pressure, Condition::Kind::pressure);
-  if (flow != nullptr) add_condition(*flow, Condition::Kind::flow);
+  if (pressure != nullptr) add_condition(*pressure, BoundaryCondition::Kind::pressure);
+  if (flow != nullptr) add_condition(*flow, BoundaryCondition::Kind::flow);
 }
 
-void Reading::add_condition(const Array& array, Condition::Kind kind) {
+void Reading::add_condition(const Array& array, BoundaryCondition::Kind kind) {
   std::vector<double> known(lines_.points(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t p = 0; p < lines_.points(); ++p) {
     const double value = array.values[p];

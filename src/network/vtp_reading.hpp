@@ -65,7 +65,7 @@ class Reading {
   std::string array_list() const;
   void merge_points();
   void find_conditions();
-  void add_condition(const Array& array, Condition::Kind kind);
+  void add_condition(const Array& array, BoundaryCondition::Kind kind);
   void count_visits();
   std::vector<std::size_t> distinct_points(std::size_t line) const;
   void add_line(std::size_t line);
@@ -84,12 +84,12 @@ class Reading {
   const Array *cell_radius_ = nullptr, *point_radius_ = nullptr;
   double radius_factor_ = 1;  ///< 1/2 of a diameter
   const Array *length_ = nullptr, *wall_ = nullptr, *kind_ = nullptr, *generation_ = nullptr;
-  std::vector<std::size_t> same_;       ///< [point] the first point at its place
-  std::vector<std::size_t> visits_;     ///< [point] by lines, of first points
-  std::vector<Condition> condition_;    ///< junctions still numbered as points
-  std::vector<char> has_condition_;     ///< [point]
-  std::vector<std::size_t> from_, to_;  ///< [vessel] as points
-  std::vector<std::size_t> line_;       ///< [vessel]
+  std::vector<std::size_t> same_;             ///< [point] the first point at its place
+  std::vector<std::size_t> visits_;           ///< [point] by lines, of first points
+  std::vector<BoundaryCondition> condition_;  ///< junctions still numbered as points
+  std::vector<char> has_condition_;           ///< [point]
+  std::vector<std::size_t> from_, to_;        ///< [vessel] as points
+  std::vector<std::size_t> line_;             ///< [vessel]
   BoundedGraph result_;
 };
 

@@ -9,7 +9,7 @@
 namespace rhexis::network {
 
 ParameterList declare(WeaknessParameters& p) {
-  const std::vector<rhexis::Condition> some_are_weak{{"weakness.vessels", {}}, {"weakness.subtrees", {}}};
+  const std::vector<Condition> some_are_weak{{"weakness.vessels", {}}, {"weakness.subtrees", {}}};
   return {
       {.key = "weakness.vessels",
        .target = &p.vessels,

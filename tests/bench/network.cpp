@@ -67,8 +67,8 @@ void graph(benchmark::State& state, const network::Graph& graph, std::uint32_t i
            int threads) {
   omp_set_num_threads(threads);
   const std::vector<double> g = networks::conductances(graph.vessels(), 1e6, 1);
-  const std::vector<network::Condition> ends{networks::pressure(inlet, 12000),
-                                             networks::pressure(outlet, 500)};
+  const std::vector<network::BoundaryCondition> ends{networks::pressure(inlet, 12000),
+                                                     networks::pressure(outlet, 500)};
   // Two ends and a conductance in, a flow out; a pressure for each junction.
   const double traffic = static_cast<double>(graph.vessels() * (2 * 4 + 8 + 8) + graph.junctions * 8);
   const auto work = [&] {

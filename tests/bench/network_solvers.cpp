@@ -56,7 +56,7 @@ struct Method {
 int lattice(int junctions, const std::string& json_file) {
   const auto graph = networks::lattice(static_cast<int>(std::ceil(std::cbrt(junctions))), 5);
   const std::vector<double> g = networks::conductances(graph.vessels(), 1e12, 6);
-  const std::vector<network::Condition> conditions{
+  const std::vector<network::BoundaryCondition> conditions{
       networks::pressure(0, 12000), networks::pressure(static_cast<std::uint32_t>(graph.junctions - 1), 500)};
   const auto exact = solve_flow(graph, g, conditions, {GraphSolver::approximate_cholesky, 1e-14, 100000});
   fmt::print("{} junctions, {} vessels, {} unknowns after reduction, {} threads\n", graph.junctions,

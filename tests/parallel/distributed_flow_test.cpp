@@ -20,7 +20,7 @@ namespace {
 using networks::inflow;
 using networks::pressure;
 using parallel::Communicator;
-using Conditions = std::vector<network::Condition>;
+using Conditions = std::vector<network::BoundaryCondition>;
 
 enum class Deal { blocks, one_by_one, all_on_last };
 
@@ -70,7 +70,7 @@ WallSegment piece_of(const network::Graph& whole, const std::vector<double>& g, 
   for (auto condition : conditions) {
     const std::uint32_t j = condition.junction;
     const std::size_t first = std::min(first_holder[j], ranks - 1);
-    if (local[j] == 0xffffffff || (condition.kind == network::Condition::Kind::flow && rank != first))
+    if (local[j] == 0xffffffff || (condition.kind == network::BoundaryCondition::Kind::flow && rank != first))
       continue;
     condition.junction = local[j];
     piece.conditions.push_back(condition);

@@ -18,7 +18,7 @@ namespace rhexis::hemodynamics {
 namespace {
 
 constexpr double inlet = 12600, outlet = 600, tolerance = 1e-10;
-using Kind = network::Condition::Kind;
+using Kind = network::BoundaryCondition::Kind;
 
 std::vector<double> conductances(const network::Graph& g) {
   std::vector<double> conductance;
@@ -59,7 +59,7 @@ TEST(NetworkTiers, AgreeInEveryVessel) {
 
       const std::int64_t end = std::int64_t{1} << k;
       const network::Graph graph = tree.materialise(false);
-      const std::vector<network::Condition> conditions{
+      const std::vector<network::BoundaryCondition> conditions{
           {0, Kind::pressure, inlet, 0}, {static_cast<std::uint32_t>(end), Kind::pressure, outlet, 0}};
       const GraphFlow explicit_flow = solve_flow(graph, conductances(graph), conditions);
       Worst worst;
@@ -71,7 +71,7 @@ TEST(NetworkTiers, AgreeInEveryVessel) {
 
       auto part = tree.materialise_part(world.rank(), world.size());
       const DistributedGraph own{part.graph, part.junction_id};
-      std::vector<network::Condition> own_conditions;
+      std::vector<network::BoundaryCondition> own_conditions;
       for (std::uint32_t j = 0; j < own.local.junctions; ++j) {
         if (own.junction_id[j] == 0) own_conditions.push_back({j, Kind::pressure, inlet, 0});
         if (own.junction_id[j] == end) own_conditions.push_back({j, Kind::pressure, outlet, 0});

@@ -152,7 +152,7 @@ class DistributedSolver final : public FlowSolver {
       if (!g.generation.empty()) own.generation.push_back(g.generation[v]);
       vessel_id_.push_back(static_cast<std::int64_t>(v));
     }
-    for (network::Condition condition : whole.conditions) {
+    for (network::BoundaryCondition condition : whole.conditions) {
       if (local[condition.junction] == none) continue;
       condition.junction = local[condition.junction];
       conditions_.push_back(condition);
@@ -207,7 +207,7 @@ class DistributedSolver final : public FlowSolver {
   DistributedGraph part_;
   std::int64_t junctions_ = 0;           ///< of the whole
   std::vector<std::int64_t> vessel_id_;  ///< [V] number in the whole
-  std::vector<network::Condition> conditions_;
+  std::vector<network::BoundaryCondition> conditions_;
   GraphFlow flow_;                     ///< with the weight of blood in its pressures
   std::vector<std::int64_t> queried_;  ///< numbers in the whole
 };

@@ -12,7 +12,7 @@
 namespace rhexis::hemodynamics {
 namespace {
 
-using network::Condition;
+using network::BoundaryCondition;
 
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 /// An occluded vessel keeps this share of its conductance, so that the graph stays connected.
@@ -29,7 +29,8 @@ constexpr double closed_root = 1e11;
 }  // namespace
 
 RupturedNetwork::RupturedNetwork(network::Graph graph, std::vector<double> conductance,
-                                 std::vector<Condition> conditions, std::vector<VesselFailure> failures)
+                                 std::vector<BoundaryCondition> conditions,
+                                 std::vector<VesselFailure> failures)
     : junctions_(graph.junctions),
       vessels_(graph.vessels()),
       graph_(std::move(graph)),
@@ -51,7 +52,7 @@ RupturedNetwork::RupturedNetwork(network::Graph graph, std::vector<double> condu
     conductance_[failure.vessel] *= 2;
     conductance_.push_back(conductance_[failure.vessel]);
     condition_of_.back() = conditions_.size();
-    conditions_.push_back({middle, Condition::Kind::pressure, failure.orifice.outside_pressure,
+    conditions_.push_back({middle, BoundaryCondition::Kind::pressure, failure.orifice.outside_pressure,
                            usual_root / failure.orifice.strength});
   }
 }
@@ -65,7 +66,7 @@ RupturedNetwork::Result RupturedNetwork::solve(const GraphSolverOptions& options
     change = 0;
     for (std::size_t i = 0; i < failures_.size(); ++i) {
       if (condition_of_[i] == none) continue;
-      Condition& leak = conditions_[condition_of_[i]];
+      BoundaryCondition& leak = conditions_[condition_of_[i]];
       const double drive = result.flow.pressure[leak.junction] - leak.value;
       result.leaks[i] = drive / leak.resistance;
       const double resistance = (drive > 0 ? std::sqrt(drive) : closed_root) / failures_[i].orifice.strength;

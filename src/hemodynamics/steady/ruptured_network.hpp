@@ -24,7 +24,7 @@ class RupturedNetwork {
   /// Bleeding vessels are cut in two halves that meet at a new junction, after all others.
   /// `conductance` [V], m3/(s Pa).
   RupturedNetwork(network::Graph graph, std::vector<double> conductance,
-                  std::vector<network::Condition> conditions, std::vector<VesselFailure> failures);
+                  std::vector<network::BoundaryCondition> conditions, std::vector<VesselFailure> failures);
 
   struct Result {
     GraphFlow flow;             ///< of the first J junctions and V vessels, those of the intact graph; a
@@ -38,13 +38,13 @@ class RupturedNetwork {
   /// With the leaks of the last solution as constant resistances.
   const network::Graph& graph() const { return graph_; }
   const std::vector<double>& conductance() const { return conductance_; }
-  const std::vector<network::Condition>& conditions() const { return conditions_; }
+  const std::vector<network::BoundaryCondition>& conditions() const { return conditions_; }
 
  private:
   std::size_t junctions_, vessels_;  ///< of the intact graph
   network::Graph graph_;
   std::vector<double> conductance_;
-  std::vector<network::Condition> conditions_;
+  std::vector<network::BoundaryCondition> conditions_;
   std::vector<VesselFailure> failures_;
   std::vector<std::size_t> condition_of_;  ///< [failures]; none: it does not leak
 };

@@ -9,7 +9,7 @@
 namespace rhexis::hemodynamics {
 namespace {
 
-using network::Condition;
+using network::BoundaryCondition;
 
 /// Tighter than the balance that a coupled run promises.
 constexpr double imbalance_of_solver = 1e-12;
@@ -41,7 +41,7 @@ class InTree : public VesselInNetwork {
 class InGraph : public VesselInNetwork {
  public:
   /// The vessel is cut in two halves that meet at a new junction.
-  InGraph(network::Graph graph, std::vector<double> conductance, std::vector<Condition> conditions,
+  InGraph(network::Graph graph, std::vector<double> conductance, std::vector<BoundaryCondition> conditions,
           std::uint32_t vessel)
       : graph_(std::move(graph)),
         conductance_(std::move(conductance)),
@@ -61,9 +61,10 @@ class InGraph : public VesselInNetwork {
                     double outside_pressure) const override {
     std::vector<double> conductance = conductance_;
     conductance[vessel_] = conductance.back() = 2 * whole_conductance_ / resistance_factor;
-    std::vector<Condition> conditions = conditions_;
+    std::vector<BoundaryCondition> conditions = conditions_;
     if (leak_conductance > 0) {
-      conditions.push_back({middle_, Condition::Kind::pressure, outside_pressure, 1 / leak_conductance});
+      conditions.push_back(
+          {middle_, BoundaryCondition::Kind::pressure, outside_pressure, 1 / leak_conductance});
     }
     const GraphFlow flow =
         solve_flow(graph_, std::move(conductance), conditions, {.imbalance = imbalance_of_solver});
@@ -79,7 +80,7 @@ class InGraph : public VesselInNetwork {
       carried_away[graph_.from[v]] += flow.flow[v];
       carried_away[graph_.to[v]] -= flow.flow[v];
     }
-    for (const Condition& c : conditions_) {
+    for (const BoundaryCondition& c : conditions_) {
       const double in = carried_away[c.junction];
       (in > 0 ? s.inflow : s.outflow) += std::abs(in);
     }
@@ -89,7 +90,7 @@ class InGraph : public VesselInNetwork {
  private:
   network::Graph graph_;
   std::vector<double> conductance_;
-  std::vector<Condition> conditions_;
+  std::vector<BoundaryCondition> conditions_;
   std::uint32_t vessel_, middle_ = 0;
   double whole_conductance_;
 };
@@ -106,7 +107,8 @@ std::unique_ptr<VesselInNetwork> vessel_in_tree(const TreeFlow& flow, std::uint6
 }
 
 std::unique_ptr<VesselInNetwork> vessel_in_graph(network::Graph graph, std::vector<double> conductance,
-                                                 std::vector<Condition> conditions, std::uint32_t vessel) {
+                                                 std::vector<BoundaryCondition> conditions,
+                                                 std::uint32_t vessel) {
   return std::make_unique<InGraph>(std::move(graph), std::move(conductance), std::move(conditions), vessel);
 }
 

@@ -37,7 +37,7 @@ std::unique_ptr<VesselInNetwork> vessel_in_tree(const TreeFlow& flow, std::uint6
 
 /// Of a graph that fits into memory: all of it is solved each time.
 std::unique_ptr<VesselInNetwork> vessel_in_graph(network::Graph graph, std::vector<double> conductance,
-                                                 std::vector<network::Condition> conditions,
+                                                 std::vector<network::BoundaryCondition> conditions,
                                                  std::uint32_t vessel);
 
 }  // namespace rhexis::hemodynamics

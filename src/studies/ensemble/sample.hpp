@@ -14,7 +14,7 @@ namespace rhexis::ensemble {
 struct Sample {
   double pressure = 0;  ///< Pa
   std::int64_t wall = 0;
-  WallFactors factors = {};
+  SampledWall factors = {};
   bool ruptured = false;                               ///< damage of peridynamics::rupture_damage somewhere
   std::optional<double> onset = {}, first_break = {};  ///< s
   double max_displacement = 0;                         ///< m, at the onset or at the end

@@ -8,7 +8,7 @@
 
 namespace rhexis::ensemble {
 
-WallFactors draw_wall(const Parameters& p, std::int64_t wall) {
+SampledWall draw_wall(const Parameters& p, std::int64_t wall) {
   const auto factor = [&](double spread, network::Stream stream) {
     const std::uint32_t bits =
         network::draw(static_cast<std::uint64_t>(p.seed), stream, static_cast<std::uint64_t>(wall));
@@ -19,7 +19,7 @@ WallFactors draw_wall(const Parameters& p, std::int64_t wall) {
           .stiffness = factor(p.stiffness_spread, network::Stream::wall_stiffness)};
 }
 
-peridynamics::Parameters with_wall(peridynamics::Parameters v, const WallFactors& f) {
+peridynamics::Parameters with_wall(peridynamics::Parameters v, const SampledWall& f) {
   v.outer_radius += (f.thickness - 1) * (v.outer_radius - v.inner_radius);  // exact where the factor is 1
   *v.critical_stretch *= f.strength;
   v.young_modulus *= f.stiffness;

@@ -13,16 +13,16 @@
 namespace rhexis::ensemble {
 
 /// What a wall's properties are multiplied by; 1 where the spread is 0.
-struct WallFactors {
+struct SampledWall {
   double strength = 1, thickness = 1, stiffness = 1;
-  bool operator==(const WallFactors&) const = default;
+  bool operator==(const SampledWall&) const = default;
 };
 
-WallFactors draw_wall(const Parameters& p, std::int64_t wall);
+SampledWall draw_wall(const Parameters& p, std::int64_t wall);
 
 /// The mean vessel `v` (resolved), its wall changed by `f`. Particles stay where they are: spacing and
 /// horizon are those of the mean.
-peridynamics::Parameters with_wall(peridynamics::Parameters v, const WallFactors& f);
+peridynamics::Parameters with_wall(peridynamics::Parameters v, const SampledWall& f);
 
 /// Throws InputError where a wall is thinner than one spacing. Returns warnings.
 std::vector<std::string> check_walls(const Parameters& p, const peridynamics::Parameters& v);

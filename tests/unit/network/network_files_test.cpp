@@ -89,7 +89,7 @@ TEST_F(NetworkFiles, CsvOfAnyShape) {
   EXPECT_EQ(n.graph.generation[1], -1);
   EXPECT_EQ(n.conditions[0].resistance, 2e9);
   EXPECT_NEAR(n.conditions[1].value, 1e-6, 1e-20);
-  EXPECT_EQ(n.conditions[1].kind, Condition::Kind::flow);
+  EXPECT_EQ(n.conditions[1].kind, BoundaryCondition::Kind::flow);
   EXPECT_TRUE(n.graph.x.empty());
 }
 

@@ -38,11 +38,11 @@ void check_vessels(const network::Graph& graph, std::span<const double> conducta
   }
 }
 
-Boundary sort_conditions(const network::Graph& graph, std::span<const network::Condition> conditions,
+Boundary sort_conditions(const network::Graph& graph, std::span<const network::BoundaryCondition> conditions,
                          const NameOfJunction& name_of) {
   Boundary boundary;
   std::vector<bool> conditioned(graph.junctions);
-  for (const network::Condition& condition : conditions) {
+  for (const network::BoundaryCondition& condition : conditions) {
     const std::uint32_t j = condition.junction;
     if (j >= graph.junctions) {
       throw InputError("a condition is set at junction " + std::to_string(j) +
@@ -53,7 +53,7 @@ Boundary sort_conditions(const network::Graph& graph, std::span<const network::C
     conditioned[j] = true;
     if (!std::isfinite(condition.value))
       throw InputError(name + " has a condition that is not a finite number");
-    if (condition.kind == network::Condition::Kind::flow) {
+    if (condition.kind == network::BoundaryCondition::Kind::flow) {
       if (condition.resistance != 0)
         throw InputError(name + " has a flow with a resistance; only a pressure may have one");
       boundary.inflows.push_back({j, condition.value});

@@ -39,7 +39,7 @@ struct Boundary {
 using NameOfJunction = std::function<std::string(std::size_t)>;
 
 /// Throws InputError, naming the junction, where conditions contradict each other or mean nothing.
-Boundary sort_conditions(const network::Graph& graph, std::span<const network::Condition> conditions,
+Boundary sort_conditions(const network::Graph& graph, std::span<const network::BoundaryCondition> conditions,
                          const NameOfJunction& name);
 
 /// [J]

@@ -74,8 +74,8 @@ bool is_gathered(const Left& left, const GraphSolverOptions& options, parallel::
 }  // namespace
 
 GraphFlow solve_flow(const DistributedGraph& graph, std::vector<double> conductance,
-                     std::span<const network::Condition> conditions, const GraphSolverOptions& options,
-                     parallel::Communicator comm) {
+                     std::span<const network::BoundaryCondition> conditions,
+                     const GraphSolverOptions& options, parallel::Communicator comm) {
   parallel::together(comm, [&] { check_vessels(graph.local, conductance); });
   const JunctionDirectory directory = look_up(graph.local, graph.junction_id, conditions, comm);
   std::vector<std::uint32_t> shared_junctions;

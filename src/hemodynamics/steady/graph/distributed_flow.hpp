@@ -35,7 +35,7 @@ inline constexpr std::int64_t largest_to_gather = 400000;
 /// Solver `amg` always solves in place; the others, which are of one rank, always gather; `automatic` goes by
 /// size.
 GraphFlow solve_flow(const DistributedGraph& graph, std::vector<double> conductance,
-                     std::span<const network::Condition> conditions, const GraphSolverOptions& options,
-                     parallel::Communicator comm);
+                     std::span<const network::BoundaryCondition> conditions,
+                     const GraphSolverOptions& options, parallel::Communicator comm);
 
 }  // namespace rhexis::hemodynamics

@@ -47,16 +47,16 @@ CorePartSolution solve_gathered(const CorePart& part, const GraphSolverOptions& 
     conductance.push_back(g);
   }
   const std::vector<bool> connected = junctions_with_vessels(graph);
-  std::vector<network::Condition> conditions;
+  std::vector<network::BoundaryCondition> conditions;
   for (std::uint32_t j = 0; j < junctions.size(); ++j) {
     const auto& [id, value, fixed] = junctions[j];
     graph.junction_name.push_back(std::to_string(id));
     if (fixed) {
-      conditions.push_back({j, network::Condition::Kind::pressure, value, 0});
+      conditions.push_back({j, network::BoundaryCondition::Kind::pressure, value, 0});
     } else if (!connected[j]) {
       throw_floating(std::to_string(id));
     } else if (value != 0) {
-      conditions.push_back({j, network::Condition::Kind::flow, value, 0});
+      conditions.push_back({j, network::BoundaryCondition::Kind::flow, value, 0});
     }
   }
   const GraphFlow solved = solve_flow(graph, std::move(conductance), conditions, options);

@@ -96,7 +96,7 @@ GraphFlow reduce_and_solve(const network::Graph& graph, std::vector<double> cond
   return result;
 }
 
-Boundary checked_boundary(const network::Graph& graph, std::span<const network::Condition> conditions,
+Boundary checked_boundary(const network::Graph& graph, std::span<const network::BoundaryCondition> conditions,
                           const std::vector<bool>& connected) {
   const NameOfJunction name = [&](std::size_t j) { return graph.name_of_junction(j); };
   Boundary boundary = sort_conditions(graph, conditions, name);
@@ -108,7 +108,7 @@ Boundary checked_boundary(const network::Graph& graph, std::span<const network::
 
 }  // namespace
 
-void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions,
+void check_flow_problem(const network::Graph& graph, std::span<const network::BoundaryCondition> conditions,
                         const GraphSolverOptions& options) {
   const std::vector<bool> connected = junctions_with_vessels(graph);
   const Boundary boundary = checked_boundary(graph, conditions, connected);
@@ -139,7 +139,8 @@ void check_flow_problem(const network::Graph& graph, std::span<const network::Co
 }
 
 GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,
-                     std::span<const network::Condition> conditions, const GraphSolverOptions& options) {
+                     std::span<const network::BoundaryCondition> conditions,
+                     const GraphSolverOptions& options) {
   check_vessels(graph, conductance);
   const std::vector<bool> connected = junctions_with_vessels(graph);
   const Boundary boundary = checked_boundary(graph, conditions, connected);

@@ -45,7 +45,7 @@ struct GraphFlow {
 
 /// Throws the InputError that `solve_flow` would throw of conditions, components and solver, without solving
 /// anything.
-void check_flow_problem(const network::Graph& graph, std::span<const network::Condition> conditions,
+void check_flow_problem(const network::Graph& graph, std::span<const network::BoundaryCondition> conditions,
                         const GraphSolverOptions& options = {});
 
 /// Pressures and flows for conductances [V] in m3/(s Pa). `conductance` is consumed (its memory is reused).
@@ -59,6 +59,7 @@ void check_flow_problem(const network::Graph& graph, std::span<const network::Co
 /// `elimination` where junctions are left. Throws RunError where the imbalance asked for is not reached.
 /// Solver `amg` needs MPI to be initialised. The same input gives the same digits with any number of threads.
 GraphFlow solve_flow(const network::Graph& graph, std::vector<double> conductance,
-                     std::span<const network::Condition> conditions, const GraphSolverOptions& options = {});
+                     std::span<const network::BoundaryCondition> conditions,
+                     const GraphSolverOptions& options = {});
 
 }  // namespace rhexis::hemodynamics

@@ -13,7 +13,7 @@
 namespace rhexis::hemodynamics {
 namespace {
 
-using network::Condition;
+using network::BoundaryCondition;
 
 /// To the directory: a rank has a junction; a rank knows something of it.
 struct Report {
@@ -24,7 +24,7 @@ struct Report {
 };
 struct ReportedCondition {
   std::int64_t id;
-  Condition condition;
+  BoundaryCondition condition;
 };
 
 /// From the directory: `other` has the junction too, and one of the two owns it.
@@ -35,14 +35,14 @@ struct Sharing {
   bool owned, connected;
 };
 struct KnownCondition {
-  Condition condition;  // at the local junction
+  BoundaryCondition condition;  // at the local junction
   bool owned;
 };
 
 template <class T>
 using Outgoing = std::vector<std::vector<T>>;
 
-bool differ(const Condition& a, const Condition& b) {
+bool differ(const BoundaryCondition& a, const BoundaryCondition& b) {
   return a.kind != b.kind || a.value != b.value || a.resistance != b.resistance;
 }
 
@@ -68,8 +68,9 @@ void answer(std::span<const Report> holders, std::span<const ReportedCondition> 
     if (differ(other.condition, known.front().condition))
       throw InputError(name + " has two conditions; give one");
   }
-  Condition condition = known.front().condition;
-  if (condition.kind == Condition::Kind::flow && !connected) throw_inflow_without_vessels(std::to_string(id));
+  BoundaryCondition condition = known.front().condition;
+  if (condition.kind == BoundaryCondition::Kind::flow && !connected)
+    throw_inflow_without_vessels(std::to_string(id));
   for (const Report& holder : holders) {
     condition.junction = holder.local;
     conditions[static_cast<std::size_t>(holder.rank)].push_back({condition, holder.rank == owner.rank});
@@ -125,9 +126,9 @@ Boundary boundary_of(const std::vector<KnownCondition>& known) {
   Boundary boundary;
   for (const auto& [condition, owned] : known) {
     const std::uint32_t j = condition.junction;
-    if (condition.kind == Condition::Kind::pressure && condition.resistance == 0) {
+    if (condition.kind == BoundaryCondition::Kind::pressure && condition.resistance == 0) {
       boundary.fixed.push_back({j, condition.value});
-    } else if (owned && condition.kind == Condition::Kind::pressure) {
+    } else if (owned && condition.kind == BoundaryCondition::Kind::pressure) {
       boundary.ghosts.push_back({j, condition.value, 1 / condition.resistance});
     } else if (owned) {
       boundary.inflows.push_back({j, condition.value});
@@ -142,7 +143,7 @@ Boundary boundary_of(const std::vector<KnownCondition>& known) {
 }  // namespace
 
 JunctionDirectory look_up(const network::Graph& local, std::span<const std::int64_t> junction_id,
-                          std::span<const Condition> conditions, parallel::Communicator comm) {
+                          std::span<const BoundaryCondition> conditions, parallel::Communicator comm) {
   const int ranks = comm.size();
   const auto directory = [&](std::int64_t id) { return static_cast<std::size_t>(id % ranks); };
   JunctionDirectory result;
@@ -156,7 +157,7 @@ JunctionDirectory look_up(const network::Graph& local, std::span<const std::int6
     reports[directory(junction_id[j])].push_back({junction_id[j], j, comm.rank(), result.connected[j]});
   }
   Outgoing<ReportedCondition> known(static_cast<std::size_t>(ranks));
-  for (const Condition& condition : conditions) {
+  for (const BoundaryCondition& condition : conditions) {
     const std::int64_t id = junction_id[condition.junction];
     known[directory(id)].push_back({id, condition});
   }

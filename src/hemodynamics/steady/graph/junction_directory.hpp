@@ -24,6 +24,7 @@ struct JunctionDirectory {
 /// Collective. A condition may be given by any of the ranks that have its junction, or several of them alike.
 /// Throws InputError on all ranks where ids or conditions contradict each other.
 JunctionDirectory look_up(const network::Graph& local, std::span<const std::int64_t> junction_id,
-                          std::span<const network::Condition> conditions, parallel::Communicator comm);
+                          std::span<const network::BoundaryCondition> conditions,
+                          parallel::Communicator comm);
 
 }  // namespace rhexis::hemodynamics

@@ -38,9 +38,9 @@ network::BoundedGraph make_graph_network(const FlowProblem& problem, const Hydro
   if (!hydrostatic.acts()) return network;
   if (g.x.empty())
     throw InputError("needs coordinates of the junctions, and the files have none", "flow.acceleration");
-  for (network::Condition& condition : network.conditions) {
+  for (network::BoundaryCondition& condition : network.conditions) {
     const std::uint32_t j = condition.junction;
-    if (condition.kind == network::Condition::Kind::pressure) {
+    if (condition.kind == network::BoundaryCondition::Kind::pressure) {
       condition.value -= hydrostatic.pressure(g.x[j], g.y[j], g.z[j]);
     }
   }

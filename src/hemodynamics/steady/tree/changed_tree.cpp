@@ -20,7 +20,7 @@ constexpr double imbalance = 1e-14;
 struct Ways {
   network::Graph graph;
   std::vector<double> conductance;
-  std::vector<network::Condition> conditions;
+  std::vector<network::BoundaryCondition> conditions;
 
   std::uint32_t junction() { return static_cast<std::uint32_t>(graph.junctions++); }
   std::size_t join(std::uint32_t from, std::uint32_t to, double resistance) {
@@ -92,14 +92,14 @@ ChangedTree::Result ChangedTree::solve(const std::vector<VesselChange>& changes)
     const double half = resistance * change.resistance_factor / 2;
     const Halves h{ways.join(from, middle, half), ways.join(middle, to, half)};
     if (change.leak_conductance > 0) {
-      ways.conditions.push_back(
-          {middle, network::Condition::Kind::pressure, change.outside_pressure, 1 / change.leak_conductance});
+      ways.conditions.push_back({middle, network::BoundaryCondition::Kind::pressure, change.outside_pressure,
+                                 1 / change.leak_conductance});
     }
     halves[id] = h;
     return h;
   };
   const Ends roots{ways.junction(), ways.junction()};
-  for (const network::Condition& c : conditions_of(flow_.boundary(), roots.artery, roots.vein))
+  for (const network::BoundaryCondition& c : conditions_of(flow_.boundary(), roots.artery, roots.vein))
     ways.conditions.push_back(c);
   Halves first_artery, last_vein;
   for (const Place& p : places_) {

@@ -16,12 +16,12 @@ constexpr std::size_t subtrees_between_pauses = 32;
 
 }  // namespace
 
-std::vector<network::Condition> conditions_of(const TreeBoundary& b, std::uint32_t inlet,
-                                              std::uint32_t outlet) {
-  using Kind = network::Condition::Kind;
+std::vector<network::BoundaryCondition> conditions_of(const TreeBoundary& b, std::uint32_t inlet,
+                                                      std::uint32_t outlet) {
+  using Kind = network::BoundaryCondition::Kind;
   const auto at = [](std::uint32_t junction, std::optional<double> pressure, double flow) {
-    return pressure ? network::Condition{junction, Kind::pressure, *pressure, 0}
-                    : network::Condition{junction, Kind::flow, flow, 0};
+    return pressure ? network::BoundaryCondition{junction, Kind::pressure, *pressure, 0}
+                    : network::BoundaryCondition{junction, Kind::flow, flow, 0};
   };
   return {at(inlet, b.inlet_pressure, b.flow.value_or(0)),
           at(outlet, b.outlet_pressure, -b.flow.value_or(0))};

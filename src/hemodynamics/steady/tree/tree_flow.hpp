@@ -32,8 +32,8 @@ struct TreeBoundary {
 };
 
 /// The same as the conditions of a graph, at its junctions where blood enters and leaves the tree.
-std::vector<network::Condition> conditions_of(const TreeBoundary& boundary, std::uint32_t inlet,
-                                              std::uint32_t outlet);
+std::vector<network::BoundaryCondition> conditions_of(const TreeBoundary& boundary, std::uint32_t inlet,
+                                                      std::uint32_t outlet);
 
 /// One vessel's part in the flow.
 struct VesselFlow {

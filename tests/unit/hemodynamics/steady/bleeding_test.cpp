@@ -12,7 +12,7 @@
 namespace rhexis::hemodynamics {
 namespace {
 
-using Kind = network::Condition::Kind;
+using Kind = network::BoundaryCondition::Kind;
 
 /// Two vessels in a row, resistances r1 and r2, pressures p0 and p2 at their ends.
 std::unique_ptr<VesselInNetwork> two_vessels(double r1, double r2, double p0, double p2) {

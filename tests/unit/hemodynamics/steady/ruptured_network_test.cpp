@@ -11,7 +11,7 @@
 namespace rhexis::hemodynamics {
 namespace {
 
-using Kind = network::Condition::Kind;
+using Kind = network::BoundaryCondition::Kind;
 
 /// From junction 0 two ways to junction 3, by 1 and by 2.
 network::Graph diamond() {
@@ -22,7 +22,8 @@ network::Graph diamond() {
   return graph;
 }
 const std::vector<double> conductance{1e-9, 2e-9, 4e-9, 1e-9};
-const std::vector<network::Condition> conditions{{0, Kind::pressure, 16000, 0}, {3, Kind::pressure, 600, 0}};
+const std::vector<network::BoundaryCondition> conditions{{0, Kind::pressure, 16000, 0},
+                                                         {3, Kind::pressure, 600, 0}};
 const hemodynamics::GraphSolverOptions tight{.imbalance = 1e-12};
 
 TEST(RupturedNetwork, OneLeakAsTheClosedForm) {
@@ -50,7 +51,7 @@ TEST(RupturedNetwork, SeveralLeaksObeyTheirLawsTogether) {
   const auto result = ruptured.solve(tight);
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const network::Condition& leak = ruptured.conditions()[2 + i];
+    const network::BoundaryCondition& leak = ruptured.conditions()[2 + i];
     // Q^2 = S^2 (P - P_outside), with P - P_outside = R Q of the resistance that stands for the leak.
     EXPECT_NEAR(result.leaks[i] / (strength[i] * strength[i] * leak.resistance), 1, 1e-8);
     sum += result.leaks[i];

@@ -37,14 +37,14 @@ TEST(Walls, AWallIsAFunctionOfSeedAndNumber) {
 }
 
 TEST(Walls, FactorsHaveMeanOneTheirSpreadsAndNoCorrelation) {
-  const std::pair<double, std::function<double(const WallFactors&)>> kinds[] = {
-      {0.15, [](const WallFactors& f) { return f.strength; }},
-      {0.05, [](const WallFactors& f) { return f.thickness; }},
-      {0.3, [](const WallFactors& f) { return f.stiffness; }}};
+  const std::pair<double, std::function<double(const SampledWall&)>> kinds[] = {
+      {0.15, [](const SampledWall& f) { return f.strength; }},
+      {0.05, [](const SampledWall& f) { return f.thickness; }},
+      {0.3, [](const SampledWall& f) { return f.stiffness; }}};
   double sum[3] = {}, products[3][3] = {};
   const auto n = static_cast<double>(scattered.samples);
   for (std::int64_t i = 0; i < scattered.samples; ++i) {
-    const WallFactors f = draw_wall(scattered, i);
+    const SampledWall f = draw_wall(scattered, i);
     for (int a = 0; a < 3; ++a) {
       sum[a] += kinds[a].second(f);
       for (int b = 0; b < 3; ++b)

@@ -15,7 +15,8 @@
 namespace rhexis::hemodynamics {
 
 /// Worst imbalance at junctions without a condition of pressure, summed in long double, relative to inflow.
-inline double imbalance_of(const network::Graph& graph, const std::vector<network::Condition>& conditions,
+inline double imbalance_of(const network::Graph& graph,
+                           const std::vector<network::BoundaryCondition>& conditions,
                            const GraphFlow& result) {
   std::vector<long double> sum(graph.junctions);
   for (std::size_t v = 0; v < graph.vessels(); ++v) {
@@ -24,7 +25,7 @@ inline double imbalance_of(const network::Graph& graph, const std::vector<networ
   }
   for (const auto& condition : conditions) {
     const std::uint32_t j = condition.junction;
-    if (condition.kind == network::Condition::Kind::flow) {
+    if (condition.kind == network::BoundaryCondition::Kind::flow) {
       sum[j] += condition.value;
     } else if (condition.resistance == 0) {
       sum[j] = 0;
@@ -44,7 +45,7 @@ struct Reference {
 /// Gaussian elimination without subtractions (what leaves a junction is the sum of its conductances), dense,
 /// in long double; conditions of pressure (at least one) without resistance, and of flow.
 inline Reference reference(const network::Graph& graph, const std::vector<double>& conductance,
-                           const std::vector<network::Condition>& conditions) {
+                           const std::vector<network::BoundaryCondition>& conditions) {
   using Real = long double;
   const std::size_t count = graph.junctions;
   std::vector<std::vector<Real>> g(count, std::vector<Real>(count));
@@ -56,7 +57,7 @@ inline Reference reference(const network::Graph& graph, const std::vector<double
     g[graph.to[v]][graph.from[v]] += conductance[v];
   }
   for (const auto& condition : conditions) {
-    const bool is_pressure = condition.kind == network::Condition::Kind::pressure;
+    const bool is_pressure = condition.kind == network::BoundaryCondition::Kind::pressure;
     fixed[condition.junction] = is_pressure;
     (is_pressure ? result.pressure : injection)[condition.junction] = condition.value;
   }

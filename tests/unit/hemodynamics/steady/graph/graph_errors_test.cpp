@@ -14,7 +14,7 @@ namespace {
 
 using networks::inflow;
 using networks::pressure;
-using Conditions = std::vector<network::Condition>;
+using Conditions = std::vector<network::BoundaryCondition>;
 
 template <class Error = InputError>
 std::string message_of(const network::Graph& graph, const std::vector<double>& conductance,
@@ -82,7 +82,7 @@ TEST(GraphErrors, ConditionsOfJunctions) {
   expect_named(message({pressure(0, 1), pressure(4, 1)}), "junction 4");
   expect_named(message({pressure(1, 1, -2)}), "junction j1");
   expect_named(message({pressure(1, 1, INFINITY)}), "junction j1");
-  expect_named(message({pressure(0, 1), {2, network::Condition::Kind::flow, 1, 3}}), "junction j2");
+  expect_named(message({pressure(0, 1), {2, network::BoundaryCondition::Kind::flow, 1, 3}}), "junction j2");
   EXPECT_EQ(message({pressure(0, 1)}), "no error");
 }
 

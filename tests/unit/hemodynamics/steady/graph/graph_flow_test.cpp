@@ -15,7 +15,7 @@ namespace {
 
 using networks::inflow;
 using networks::pressure;
-using Conditions = std::vector<network::Condition>;
+using Conditions = std::vector<network::BoundaryCondition>;
 
 TEST(Elimination, SingleVessel) {
   const auto result =

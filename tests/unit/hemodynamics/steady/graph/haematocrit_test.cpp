@@ -38,7 +38,7 @@ TEST(PhaseSeparation, Limits) {
 
 struct Problem {
   network::Graph graph;
-  std::vector<network::Condition> conditions;
+  std::vector<network::BoundaryCondition> conditions;
 
   GraphFlow solve(std::span<const double> haematocrit) const {
     std::vector<double> conductance;
@@ -55,7 +55,7 @@ Problem random_tree(int generations) {
   rules.root_radius = 25e-6;
   Problem p;
   p.graph = network::TreePair(rules).materialise();
-  using Kind = network::Condition::Kind;
+  using Kind = network::BoundaryCondition::Kind;
   p.conditions = {{0, Kind::pressure, 8000, 0}, {std::uint32_t{1} << generations, Kind::pressure, 2000, 0}};
   return p;
 }
@@ -67,7 +67,7 @@ double worst_imbalance(const Problem& p, const HaematocritFlow& r) {
     cells[p.graph.from[v]] -= r.flow.flow[v] * r.haematocrit[v];
     cells[p.graph.to[v]] += r.flow.flow[v] * r.haematocrit[v];
   }
-  for (const network::Condition& c : p.conditions) cells[c.junction] = 0;
+  for (const network::BoundaryCondition& c : p.conditions) cells[c.junction] = 0;
   double worst = 0;
   for (const double c : cells) worst = std::max(worst, std::abs(c));
   return worst / r.flow.inflow;

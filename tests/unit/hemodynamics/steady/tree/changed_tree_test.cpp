@@ -24,8 +24,8 @@ ChangedTree::Result by_graph(const network::TreePair& tree, const std::vector<Ve
     conductance.push_back(1 / poiseuille_resistance(graph.radius[v], graph.length[v], eta));
   }
   const auto end = static_cast<std::uint32_t>(std::size_t{1} << tree.generations());
-  using Kind = network::Condition::Kind;
-  std::vector<network::Condition> conditions = conditions_of(given, 0, end);
+  using Kind = network::BoundaryCondition::Kind;
+  std::vector<network::BoundaryCondition> conditions = conditions_of(given, 0, end);
   std::vector<std::size_t> second;
   for (const VesselChange& c : changes) {
     const auto middle = static_cast<std::uint32_t>(graph.junctions++);
