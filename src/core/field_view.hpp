@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/id_ranges.hpp"
+
 namespace rhexis {
 
 /// What a field's values belong to: the points, or the lines (cells) between them.
@@ -30,18 +32,6 @@ struct FieldView {
   std::size_t count = 0;
 };
 
-/// Where this rank's points lie in the global, partition-independent numbering id = column * rows + row:
-/// the block of columns [first_column, first_column + column_count) x rows [first_row, first_row +
-/// row_count), stored column by column.
-struct PointLayout {
-  std::int64_t columns = 0, rows = 0;  ///< of the whole body
-  std::int64_t first_column = 0, column_count = 0;
-  std::int64_t first_row = 0, row_count = 0;
-
-  std::int64_t global_count() const { return columns * rows; }
-  std::int64_t local_count() const { return column_count * row_count; }
-};
-
 /// A number that goes with a moment: shown in pictures, stored with the step.
 struct Annotation {
   std::string_view name;  ///< e.g. "pressure"
@@ -56,7 +46,8 @@ class PointSource {
   virtual ~PointSource() = default;
   virtual long step() const = 0;
   virtual double time_s() const = 0;
-  virtual const PointLayout& layout() const = 0;
+  /// Which of all points are on this rank, in the order of the fields' values.
+  virtual const IdRanges& ids() const = 0;
   virtual std::span<const FieldInfo> fields() const = 0;
   /// Deformed positions, named "position", unit m, three components.
   virtual FieldView positions() = 0;

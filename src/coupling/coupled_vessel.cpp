@@ -87,8 +87,8 @@ hemodynamics::Orifice CoupledVessel::orifice(double opening) const {
           parts_[1].outside()};
 }
 
-std::vector<double> CoupledVessel::profile(std::int64_t rows, double row_spacing) const {
-  return axial_profile(state_.load, data_, segment_, rows, row_spacing);
+std::function<double(double)> CoupledVessel::profile() const {
+  return axial_profile(state_.load, data_, segment_);
 }
 
 void CoupledVessel::exchange(const Wall& wall) {

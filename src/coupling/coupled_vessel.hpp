@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -75,8 +76,8 @@ class CoupledVessel {
   /// The same before the vessel ruptures: by the network's first solution.
   double intact_pressure() const { return largest_load(intact_load_, data_, segment_); }
   const AxialLoad& intact_load() const { return intact_load_; }
-  /// At each of the rows of particles.
-  std::vector<double> profile(std::int64_t rows, double row_spacing) const;
+  /// The net pressure at a height (m) of the simulated wall over `pressure()`.
+  std::function<double(double z)> profile() const;
 
   /// Whether a window ends at this step.
   bool due(long step) const { return two_way() && step % steps_per_window_ == 0; }

@@ -10,8 +10,7 @@ namespace rhexis::coupling {
 void NetworkLoad::start(peridynamics::VesselSimulation& simulation) {
   const double full = simulation.parameters().pressure;
   if (full > 0) simulation.load().next_share = vessel_->pressure() / full;
-  const peridynamics::Lattice& lattice = simulation.lattice();
-  simulation.body().set_axial_profile(vessel_->profile(lattice.rows, lattice.row_spacing));
+  simulation.body().set_axial_profile(vessel_->profile());
 }
 
 /// From the onset of rupture the lumen counts as it was then: fragments are no wall.

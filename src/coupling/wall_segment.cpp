@@ -75,16 +75,13 @@ double largest_load(const AxialLoad& load, const VesselData& v, const WallSegmen
   return first < 0.5 && last > 0.5 ? std::max(ends, load.pressure[1]) : ends;
 }
 
-std::vector<double> axial_profile(const AxialLoad& load, const VesselData& v, const WallSegment& segment,
-                                  std::int64_t rows, double row_spacing) {
-  std::vector<double> profile(static_cast<std::size_t>(rows), 1.0);
+std::function<double(double)> axial_profile(const AxialLoad& load, const VesselData& v,
+                                            const WallSegment& segment) {
   const double largest = largest_load(load, v, segment);
-  if (!(largest > 0)) return profile;
-  for (std::size_t row = 0; row < profile.size(); ++row) {
-    const double z = segment.start + (static_cast<double>(row) + 0.5) * row_spacing;
-    profile[row] = load.at(std::clamp(z / v.length, 0.0, 1.0)) / largest;
-  }
-  return profile;
+  if (!(largest > 0)) return [](double) { return 1.0; };
+  return [load, largest, start = segment.start, length = v.length](double z) {
+    return load.at(std::clamp((start + z) / length, 0.0, 1.0)) / largest;
+  };
 }
 
 }  // namespace rhexis::coupling

@@ -55,9 +55,9 @@ double clamped_reach(double mid_radius, double wall_thickness, double poisson_ra
 /// The largest load on the segment, Pa.
 double largest_load(const AxialLoad& load, const VesselData& vessel, const WallSegment& segment);
 
-/// The load at each of the rows of particles of the segment, relative to `largest_load`: 1 where the load is
-/// uniform, to the last bit.
-std::vector<double> axial_profile(const AxialLoad& load, const VesselData& vessel, const WallSegment& segment,
-                                  std::int64_t rows, double row_spacing);
+/// The load at a height z (m) of the segment, relative to `largest_load`: 1 where the load is uniform, to the
+/// last bit.
+std::function<double(double z)> axial_profile(const AxialLoad& load, const VesselData& vessel,
+                                              const WallSegment& segment);
 
 }  // namespace rhexis::coupling

@@ -47,40 +47,11 @@ std::uint64_t checksum_of(const CheckpointNumbers& numbers) {
   return checksum(text);
 }
 
-hsize_t extent(std::int64_t value) {
-  return static_cast<hsize_t>(value);
-}
-
-Slab slab_of(const WordBlock& block) {
-  return {.dimensions = 2,
-          .shape = {extent(block.rows), extent(block.words)},
-          .start = {extent(block.first_row), extent(block.first_word)},
-          .stride = {1, 1},
-          .count = {extent(block.row_count), extent(block.word_count)},
-          .block = {1, 1}};
-}
-
 /// All of them, or none.
 Slab slab_of_bytes(std::size_t size, bool all) {
-  const auto bytes = static_cast<hsize_t>(size);
-  return {.dimensions = 1,
-          .shape = {bytes},
-          .start = {0},
-          .stride = {1},
-          .count = {all ? bytes : 0},
-          .block = {1}};
-}
-
-template <class Value>
-std::uint64_t checksum_of(const std::string& name, const PointLayout& l, std::span<const Value> values) {
-  return checksum(TableBlock{l.rows, l.first_column, l.column_count, l.first_row, l.row_count}, values,
-                  checksum(name));
-}
-
-template <class Value>
-std::uint64_t checksum_of(const std::string& name, const WordBlock& b, std::span<const Value> values) {
-  return checksum(TableBlock{b.words, b.first_row, b.row_count, b.first_word, b.word_count}, values,
-                  checksum(name));
+  IdRanges bytes{.global_count = static_cast<std::int64_t>(size)};
+  if (all) bytes.add({0, bytes.global_count});
+  return slab_of(bytes, 1);
 }
 
 std::uint64_t over_ranks(const parallel::Communicator& communicator, std::uint64_t sum) {
@@ -116,18 +87,17 @@ CheckpointWriter::CheckpointWriter(std::filesystem::path path, const std::string
 
 CheckpointWriter::~CheckpointWriter() = default;
 
-void CheckpointWriter::write(const std::string& name, const PointLayout& layout,
-                             std::span<const double> values) {
-  assert(static_cast<std::int64_t>(values.size()) == layout.local_count());
-  write_array(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, slab_of(layout, 1), values.data());
-  note_checksum(name, checksum_of(name, layout, values));
+void CheckpointWriter::write(const std::string& name, const IdRanges& ids, std::span<const double> values) {
+  assert(static_cast<std::int64_t>(values.size()) == ids.local_count());
+  write_array(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, slab_of(ids, 1), values.data());
+  note_checksum(name, checksum(TablePart{.rows = ids}, values, checksum(name)));
 }
 
-void CheckpointWriter::write(const std::string& name, const WordBlock& block,
+void CheckpointWriter::write(const std::string& name, const TablePart& part,
                              std::span<const std::uint16_t> values) {
-  assert(static_cast<std::int64_t>(values.size()) == block.local_count());
-  write_array(name, H5T_STD_U16LE, H5T_NATIVE_UINT16, slab_of(block), values.data());
-  note_checksum(name, checksum_of(name, block, values));
+  assert(static_cast<std::int64_t>(values.size()) == part.local_count());
+  write_array(name, H5T_STD_U16LE, H5T_NATIVE_UINT16, slab_of(part), values.data());
+  note_checksum(name, checksum(part, values, checksum(name)));
 }
 
 void CheckpointWriter::write(const std::string& name, const std::string& text) {
@@ -240,23 +210,23 @@ void CheckpointReader::read_array(const std::string& name, std::int64_t memory_t
   parallel::together<InputError>(communicator_, [&] { file_->read(name, memory_type, slab, values); });
 }
 
-void CheckpointReader::read(const std::string& name, const PointLayout& layout, std::span<double> values) {
-  assert(static_cast<std::int64_t>(values.size()) == layout.local_count());
-  read_array(name, H5T_NATIVE_DOUBLE, slab_of(layout, 1), values.data());
-  compare_checksum(name,
-                   over_ranks(communicator_, checksum_of(name, layout, std::span<const double>(values))));
+void CheckpointReader::read(const std::string& name, const IdRanges& ids, std::span<double> values) {
+  assert(static_cast<std::int64_t>(values.size()) == ids.local_count());
+  read_array(name, H5T_NATIVE_DOUBLE, slab_of(ids, 1), values.data());
+  compare_checksum(
+      name, over_ranks(communicator_,
+                       checksum(TablePart{.rows = ids}, std::span<const double>(values), checksum(name))));
   parallel::together<InputError>(communicator_, [&] {
     if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
       refuse(fmt::format("'{}' holds values that are not finite", name));
   });
 }
 
-void CheckpointReader::read(const std::string& name, const WordBlock& block,
-                            std::span<std::uint16_t> values) {
-  assert(static_cast<std::int64_t>(values.size()) == block.local_count());
-  read_array(name, H5T_NATIVE_UINT16, slab_of(block), values.data());
-  compare_checksum(
-      name, over_ranks(communicator_, checksum_of(name, block, std::span<const std::uint16_t>(values))));
+void CheckpointReader::read(const std::string& name, const TablePart& part, std::span<std::uint16_t> values) {
+  assert(static_cast<std::int64_t>(values.size()) == part.local_count());
+  read_array(name, H5T_NATIVE_UINT16, slab_of(part), values.data());
+  compare_checksum(name, over_ranks(communicator_,
+                                    checksum(part, std::span<const std::uint16_t>(values), checksum(name))));
 }
 
 void CheckpointReader::read(const std::string& name, std::string& text) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The state of a run by name, for a restart on any number of ranks.
 ///
-/// Distributed arrays are stored in the partition-independent numbering (PointLayout) or as a table of words,
-/// so ranks that divide the body differently read what they need. What all ranks share: numbers are
-/// attributes, text, which may be longer than those can be, data sets. Every data set has a checksum
+/// Distributed arrays are stored in the order of global numbers (IdRanges), those of 16-bit words as tables
+/// (TablePart), so ranks that divide the body differently read what they need. What all ranks share: numbers
+/// are attributes, text, which may be longer than those can be, data sets. Every data set has a checksum
 /// (checksum.hpp) among the attributes, these have one together, and HDF5's own structures have HDF5's: a
 /// file that was damaged, or put together from several, is refused.
 #pragma once
@@ -19,7 +19,7 @@
 #include <string>
 #include <variant>
 
-#include "core/field_view.hpp"
+#include "core/id_ranges.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::output {
@@ -27,17 +27,6 @@ namespace rhexis::output {
 class Hdf5File;
 struct Slab;
 class TemporaryFile;
-struct TableBlock;
-
-/// This rank's part of a table of `rows` x `words` 16-bit words (the bits of the bonds: a row per bond of a
-/// column's family, a word per 16 particles along the axis), row by row. Parts of ranks do not overlap.
-struct WordBlock {
-  std::int64_t rows = 0, words = 0;  ///< of the whole table
-  std::int64_t first_row = 0, row_count = 0;
-  std::int64_t first_word = 0, word_count = 0;
-
-  std::int64_t local_count() const { return row_count * word_count; }
-};
 
 /// By name; in a checkpoint they are attributes.
 using CheckpointNumbers =
@@ -53,8 +42,8 @@ class CheckpointWriter {
                    parallel::Communicator communicator);
   ~CheckpointWriter();
 
-  void write(const std::string& name, const PointLayout& layout, std::span<const double> values);
-  void write(const std::string& name, const WordBlock& block, std::span<const std::uint16_t> values);
+  void write(const std::string& name, const IdRanges& ids, std::span<const double> values);
+  void write(const std::string& name, const TablePart& part, std::span<const std::uint16_t> values);
   void write(const std::string& name, const std::string& text);  ///< the same on every rank
   /// The root's value; what is absent is not written.
   void write(const std::string& name, std::int64_t value) { numbers_[name] = value; }
@@ -93,8 +82,8 @@ class CheckpointReader {
   bool holds(const std::string& name) const;
 
   /// Every value must be finite.
-  void read(const std::string& name, const PointLayout& layout, std::span<double> values);
-  void read(const std::string& name, const WordBlock& block, std::span<std::uint16_t> values);
+  void read(const std::string& name, const IdRanges& ids, std::span<double> values);
+  void read(const std::string& name, const TablePart& part, std::span<std::uint16_t> values);
   void read(const std::string& name, std::string& text);
   /// A number from `least` to `most`, finite.
   void read(const std::string& name, std::int64_t& value, double least = -largest, double most = largest);

@@ -13,6 +13,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/id_ranges.hpp"
+
 namespace rhexis::output {
 
 /// The finaliser of SplitMix64 (Steele, Lea & Flood 2014, doi:10.1145/2660193.2660195): every bit of the
@@ -36,14 +38,6 @@ constexpr std::uint64_t checksum(std::string_view text, std::uint64_t key = 0) {
   return sum;
 }
 
-/// A rank's block of a table: rows [first_row, first_row + row_count) x columns [first_column, first_column +
-/// column_count) of `columns` each.
-struct TableBlock {
-  std::int64_t columns = 0;
-  std::int64_t first_row = 0, row_count = 0;
-  std::int64_t first_column = 0, column_count = 0;
-};
-
 inline std::uint64_t bits_of(double value) {
   return std::bit_cast<std::uint64_t>(value);
 }
@@ -51,15 +45,16 @@ inline std::uint64_t bits_of(std::uint16_t value) {
   return value;
 }
 
-/// What the block, stored row by row, adds to the checksum of the table. Local.
+/// What a rank's part, with its values row after row, adds to the checksum of the table. Local.
 template <class Value>
-std::uint64_t checksum(const TableBlock& block, std::span<const Value> values, std::uint64_t key) {
+std::uint64_t checksum(const TablePart& part, std::span<const Value> values, std::uint64_t key) {
   std::uint64_t sum = 0;
   const Value* value = values.data();
-  for (std::int64_t r = 0; r < block.row_count; ++r) {
-    auto index = static_cast<std::uint64_t>((block.first_row + r) * block.columns + block.first_column);
-    for (std::int64_t c = 0; c < block.column_count; ++c)
-      sum += checksum_term(key, index++, bits_of(*value++));
+  for (const IdRange& range : part.rows.ranges) {
+    for (std::int64_t row = range.first; row < range.first + range.count; ++row) {
+      auto index = static_cast<std::uint64_t>(row * part.width + part.first);
+      for (std::int64_t c = 0; c < part.count; ++c) sum += checksum_term(key, index++, bits_of(*value++));
+    }
   }
   return sum;
 }

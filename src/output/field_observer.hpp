@@ -16,7 +16,7 @@ class FieldObserver final : public Observer {
   /// Begins the files, with the undeformed positions (m). `source` must live on. Collective. Throws RunError.
   FieldObserver(const PointSeriesPlan& plan, PointSource& source, const FieldView& undeformed_positions,
                 parallel::Communicator communicator)
-      : source_(source), steps_(plan.steps), series_(plan, source.layout(), communicator) {
+      : source_(source), steps_(plan.steps), series_(plan, source.ids(), communicator) {
     series_.write_reference(undeformed_positions);
   }
 

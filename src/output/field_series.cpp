@@ -53,7 +53,8 @@ void FieldSeries::write_connectivity(const std::vector<std::int64_t>& ends) {
   file_->write(connectivity(), ends);
 }
 
-void FieldSeries::write(const SeriesStep& moment, const std::function<FieldView(const StoredField&)>& view_of) {
+void FieldSeries::write(const SeriesStep& moment,
+                        const std::function<FieldView(const StoredField&)>& view_of) {
   finish();
   const bool planned = planned_.erase(moment.step) > 0;
   if (!planned && unplanned_) {

@@ -66,15 +66,32 @@ bool Hdf5Handle::reset() {
   return id < 0 || close_(id) >= 0;
 }
 
-Slab slab_of(const PointLayout& layout, int components) {
+Slab slab_of(const TablePart& part) {
   const auto size = [](std::int64_t value) { return static_cast<hsize_t>(value); };
-  const auto width = static_cast<hsize_t>(components);
-  return {.dimensions = components == 1 ? 1 : 2,
-          .shape = {size(layout.global_count()), width},
-          .start = {size(layout.first_column * layout.rows + layout.first_row), 0},
-          .stride = {size(layout.rows), width},
-          .count = {size(layout.column_count), 1},
-          .block = {size(layout.row_count), width}};
+  Slab slab{.dimensions = 2, .shape = {size(part.rows.global_count), size(part.width)}};
+  if (part.count == 0) return slab;
+  std::int64_t next = -1;  // where a range goes on with what is regular so far
+  for (const IdRange& range : part.rows.ranges) {
+    Slab::Blocks* const last = slab.parts.empty() ? nullptr : &slab.parts.back();
+    const bool alike = last != nullptr && last->block[0] == size(range.count);
+    if (alike && last->count[0] == 1) last->stride[0] = size(range.first) - last->start[0];
+    if (alike && (last->count[0] == 1 || range.first == next)) {
+      ++last->count[0];
+    } else {
+      slab.parts.push_back({.start = {size(range.first), size(part.first)},
+                            .stride = {size(range.count), size(part.width)},
+                            .count = {1, 1},
+                            .block = {size(range.count), size(part.count)}});
+    }
+    next = range.first + static_cast<std::int64_t>(slab.parts.back().stride[0]);
+  }
+  return slab;
+}
+
+Slab slab_of(const IdRanges& ids, int components) {
+  Slab slab = slab_of(TablePart{.rows = ids, .width = components, .count = components});
+  if (components == 1) slab.dimensions = 1;
+  return slab;
 }
 
 void Hdf5File::require(bool succeeded, std::string_view doing, std::string_view object) const {
@@ -135,11 +152,14 @@ Hdf5Handle Hdf5File::open_dataset(const std::string& name) const {
 Hdf5Handle Hdf5File::select(const Slab& slab, const std::string& name) const {
   Hdf5Handle space =
       own(H5Screate_simple(slab.dimensions, slab.shape.data(), nullptr), H5Sclose, "describe", name);
-  const bool empty = slab.count[0] == 0 || slab.block[0] == 0;
-  require((empty ? H5Sselect_none(space)
-                 : H5Sselect_hyperslab(space, H5S_SELECT_SET, slab.start.data(), slab.stride.data(),
-                                       slab.count.data(), slab.block.data())) >= 0,
-          "select this rank's part of", name);
+  bool selected = slab.parts.empty() ? H5Sselect_none(space) >= 0 : true;
+  H5S_seloper_t how = H5S_SELECT_SET;
+  for (const Slab::Blocks& part : slab.parts) {
+    selected = selected && H5Sselect_hyperslab(space, how, part.start.data(), part.stride.data(),
+                                               part.count.data(), part.block.data()) >= 0;
+    how = H5S_SELECT_OR;
+  }
+  require(selected, "select this rank's part of", name);
   return space;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Parallel HDF5 behind a few words: handles that close themselves, calls that throw, blocks of a point
-/// numbering.
+/// Parallel HDF5 behind a few words: handles that close themselves, calls that throw, and the
+/// parts of data sets that ranks have.
 #pragma once
 
 #include <hdf5.h>
@@ -15,7 +15,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/field_view.hpp"
+#include "core/id_ranges.hpp"
 #include "output/disk_space.hpp"
 #include "parallel/communicator.hpp"
 
@@ -39,17 +39,23 @@ class Hdf5Handle {
   Close close_ = nullptr;
 };
 
-/// This rank's part of a data set of one or two dimensions: a regular set of blocks, as H5Sselect_hyperslab.
+/// This rank's part of a data set of one or two dimensions: regular sets of blocks, each as
+/// H5Sselect_hyperslab takes it, in ascending order.
 struct Slab {
+  struct Blocks {
+    std::array<hsize_t, 2> start{}, stride{}, count{}, block{};
+  };
   int dimensions = 1;
-  std::array<hsize_t, 2> shape{}, start{}, stride{}, count{}, block{};
+  std::array<hsize_t, 2> shape{};
+  std::vector<Blocks> parts = {};
 
   std::vector<hsize_t> extent() const { return {shape.begin(), shape.begin() + dimensions}; }
 };
 
-/// The rank's points, `components` values each: shape [N] for one component, else [N, components]. Its
-/// columns are blocks of `row_count` ids, `rows` apart.
-Slab slab_of(const PointLayout& layout, int components);
+/// The rank's items, `components` values each: shape [N] for one component, else [N, components].
+Slab slab_of(const IdRanges& ids, int components);
+/// The rank's part of a table [rows, width].
+Slab slab_of(const TablePart& part);
 
 /// What an attribute holds here.
 using AttributeValue = std::variant<std::int64_t, std::uint64_t, double, std::string>;

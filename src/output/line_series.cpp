@@ -14,17 +14,14 @@ namespace rhexis::output {
 namespace {
 
 /// `mine` of this rank's items in a row of all ranks' items.
-PointLayout in_rank_order(std::size_t mine, const parallel::Communicator& communicator) {
+IdRanges in_rank_order(std::size_t mine, const parallel::Communicator& communicator) {
   std::vector<std::int64_t> counts(static_cast<std::size_t>(communicator.size()), 0);
   const auto own = counts.begin() + communicator.rank();
   *own = static_cast<std::int64_t>(mine);
   communicator.all_reduce(std::span<std::int64_t>(counts), parallel::Reduce::sum);
-  return {.columns = 1,
-          .rows = std::accumulate(counts.begin(), counts.end(), std::int64_t{0}),
-          .first_column = 0,
-          .column_count = 1,
-          .first_row = std::accumulate(counts.begin(), own, std::int64_t{0}),
-          .row_count = *own};
+  IdRanges ids{.global_count = std::accumulate(counts.begin(), counts.end(), std::int64_t{0})};
+  ids.add({std::accumulate(counts.begin(), own, std::int64_t{0}), *own});
+  return ids;
 }
 
 SeriesLayout layout_of(LineSource& source, const parallel::Communicator& communicator) {
@@ -34,7 +31,7 @@ SeriesLayout layout_of(LineSource& source, const parallel::Communicator& communi
     ends = source.connectivity().size();
   });
   const SeriesLayout layout = {in_rank_order(points, communicator), in_rank_order(ends / 2, communicator)};
-  if (layout.cells.rows == 0) throw RunError("there are no lines to store");
+  if (layout.cells.global_count == 0) throw RunError("there are no lines to store");
   return layout;
 }
 
@@ -45,14 +42,15 @@ SeriesPlan with_annotations(SeriesPlan plan, const LineSource& source) {
 }
 
 /// The source's connectivity in the numbering of all ranks.
-std::vector<std::int64_t> global_ends(LineSource& source, const PointLayout& points) {
+std::vector<std::int64_t> global_ends(LineSource& source, const IdRanges& points) {
+  const std::int64_t first = points.ranges.empty() ? 0 : points.ranges.front().first;
   const std::span<const std::int64_t> local = source.connectivity();
   std::vector<std::int64_t> ends(local.begin(), local.end());
   for (std::int64_t& end : ends) {
-    if (end < 0 || end >= points.row_count) {
-      throw std::logic_error(fmt::format("a line ends at point {} of {}", end, points.row_count));
+    if (end < 0 || end >= points.local_count()) {
+      throw std::logic_error(fmt::format("a line ends at point {} of {}", end, points.local_count()));
     }
-    end += points.first_row;
+    end += first;
   }
   return ends;
 }

@@ -13,9 +13,9 @@ std::vector<StoredField> with_position(const std::vector<FieldInfo>& fields) {
 
 }  // namespace
 
-PointSeries::PointSeries(const PointSeriesPlan& plan, const PointLayout& layout,
+PointSeries::PointSeries(const PointSeriesPlan& plan, const IdRanges& points,
                          parallel::Communicator communicator)
-    : formats_(open_series(named(plan, "particles"), {.points = layout, .cells = layout}, SeriesKind::points,
+    : formats_(open_series(named(plan, "particles"), {.points = points, .cells = points}, SeriesKind::points,
                            with_position(plan.fields), communicator)) {}
 
 void PointSeries::write_reference(const FieldView& undeformed_positions) {

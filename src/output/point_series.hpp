@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// A body's fields over time, in the files `particles.h5` and `particles.xdmf` (see XdmfSeries),
-/// `particles.vtkhdf` (see VtkHdfSeries), or both. Points lie in the partition-independent order
-/// id = column * rows + row.
+/// `particles.vtkhdf` (see VtkHdfSeries), or both. Points lie in the order of their global numbers, whatever
+/// rank has them.
 #pragma once
 
 #include "output/field_series.hpp"
@@ -15,7 +15,7 @@ using PointSeriesPlan = SeriesPlan;
 /// throws RunError on all; what was written before stays readable.
 class PointSeries {
  public:
-  PointSeries(const PointSeriesPlan& plan, const PointLayout& layout, parallel::Communicator communicator);
+  PointSeries(const PointSeriesPlan& plan, const IdRanges& points, parallel::Communicator communicator);
 
   /// Stores the undeformed positions (m).
   void write_reference(const FieldView& undeformed_positions);

@@ -38,11 +38,12 @@ std::string with_name(std::string message, const std::filesystem::path& temporar
 
 }  // namespace
 
-std::vector<std::int64_t> numbers_of(const PointLayout& layout) {
-  std::vector<std::int64_t> numbers(static_cast<std::size_t>(layout.local_count()));
-  for (std::int64_t c = 0; c < layout.column_count; ++c) {
-    const auto column = numbers.begin() + c * layout.row_count;
-    std::iota(column, column + layout.row_count, (layout.first_column + c) * layout.rows + layout.first_row);
+std::vector<std::int64_t> numbers_of(const IdRanges& ids) {
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(ids.local_count()));
+  auto next = numbers.begin();
+  for (const IdRange& range : ids.ranges) {
+    std::iota(next, next + range.count, range.first);
+    next += range.count;
   }
   return numbers;
 }
@@ -72,12 +73,14 @@ void SeriesFile::create(std::size_t datasets, const std::function<void(Hdf5File&
 
 Slab SeriesFile::slab_of(const Place& place) const {
   Slab slab = output::slab_of(layout_.of(place.centring), place.components);
+  const hsize_t flat = place.flat ? static_cast<hsize_t>(place.components) : 1;
+  if (place.flat) slab.dimensions = 1;
   if (place.rows > 0) slab.shape[0] = static_cast<hsize_t>(place.rows);
-  slab.start[0] += static_cast<hsize_t>(place.first_row);
-  if (place.flat) {
-    slab.dimensions = 1;
-    for (hsize_t* rows : {&slab.shape[0], &slab.start[0], &slab.stride[0], &slab.block[0]})
-      *rows *= static_cast<hsize_t>(place.components);
+  slab.shape[0] *= flat;
+  for (Slab::Blocks& part : slab.parts) {
+    part.start[0] = (part.start[0] + static_cast<hsize_t>(place.first_row)) * flat;
+    part.stride[0] *= flat;
+    part.block[0] *= flat;
   }
   return slab;
 }
@@ -94,7 +97,7 @@ void SeriesFile::reserve(const std::vector<Place>& places) {
   std::vector<ByteRange> ranges;
   parallel::together<RunError>(communicator_, [&] {
     for (const Place& place : places) {
-      const std::int64_t count = layout_.of(place.centring).global_count();
+      const std::int64_t count = layout_.of(place.centring).global_count;
       const ByteRange all = file_->bytes_of(place.dataset);
       const std::int64_t row = all.count / (place.rows > 0 ? place.rows : count);
       ranges.push_back({all.offset + place.first_row * row, count * row});

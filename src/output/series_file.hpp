@@ -74,6 +74,6 @@ class SeriesFile {
 };
 
 /// The global numbers of this rank's points or cells, in the order of its values.
-std::vector<std::int64_t> numbers_of(const PointLayout& layout);
+std::vector<std::int64_t> numbers_of(const IdRanges& ids);
 
 }  // namespace rhexis::output

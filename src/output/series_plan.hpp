@@ -58,8 +58,8 @@ SeriesStep series_step(const Source& source) {
 
 /// How points and cells are numbered and divided among ranks.
 struct SeriesLayout {
-  PointLayout points, cells;
-  const PointLayout& of(Centring centring) const { return centring == Centring::point ? points : cells; }
+  IdRanges points, cells;
+  const IdRanges& of(Centring centring) const { return centring == Centring::point ? points : cells; }
 };
 
 /// The plan with a name for its files where it has none.

@@ -62,10 +62,17 @@ VtkHdfSeries::StepCounts find_step_counts(const std::filesystem::path& path, std
           .values_at = address};
 }
 
+/// All of a data set, [rows] or [rows, columns].
+Slab whole(std::int64_t rows, int columns = 1) {
+  IdRanges all{.global_count = rows};
+  all.add({0, rows});
+  return slab_of(all, columns);
+}
+
 /// Creates and fills a table of integers, [rows] or [rows, columns].
 void write_table(Hdf5File& h5, const std::string& name, std::int64_t rows, std::int64_t columns,
                  const std::function<std::int64_t(std::int64_t row)>& value) {
-  const Slab all = slab_of({1, rows, 0, 1, 0, rows}, static_cast<int>(columns));
+  const Slab all = whole(rows, static_cast<int>(columns));
   std::vector<std::int64_t> values;
   for (std::int64_t row = 0; row < rows; ++row)
     values.insert(values.end(), static_cast<std::size_t>(columns), value(row));
@@ -104,7 +111,7 @@ VtkHdfSeries::VtkHdfSeries(const SeriesPlan& plan, const SeriesLayout& layout, S
 }
 
 std::int64_t VtkHdfSeries::count(Centring centring) const {
-  return file().layout().of(centring).global_count();
+  return file().layout().of(centring).global_count;
 }
 
 std::string VtkHdfSeries::dataset_of(const StoredField& field) const {
@@ -136,7 +143,7 @@ void VtkHdfSeries::lay_out(Hdf5File& h5, const SeriesPlan& plan) const {
   h5.create_group("/VTKHDF");
   h5.create_group("/VTKHDF/Steps");
   h5.write_attribute("/VTKHDF/Steps", "NSteps", not_yet);
-  h5.create_dataset(times, H5T_IEEE_F64LE, slab_of({1, room_, 0, 1, 0, room_}, 1));
+  h5.create_dataset(times, H5T_IEEE_F64LE, whole(room_));
   h5.write_numbers("/VTKHDF", "Version", {2, 2});
   h5.write_ascii("/VTKHDF", "Type", "PolyData");
   h5.write_text("/", "title", plan.title);
@@ -166,7 +173,8 @@ void VtkHdfSeries::lay_out_cells(Hdf5File& h5) const {
     if (group == ours) {
       file().lay_out(h5, connectivity(), H5T_STD_I64LE);
       file().lay_out(h5, offsets(), H5T_STD_I64LE);
-      const Slab last = slab_of({1, cells + 1, 0, 1, cells, 1}, 1);  // the only one that belongs to no cell
+      const Slab last = slab_of({.global_count = cells + 1, .ranges = {{cells, 1}}},
+                                1);  // the only one that belongs to no cell
       h5.write(offsets().dataset, H5T_NATIVE_INT64, last, &ends);
     } else {
       write_table(h5, name + "/Connectivity", 0, 1, {});
@@ -197,7 +205,7 @@ void VtkHdfSeries::lay_out_steps(Hdf5File& h5) const {
   }
   for (const std::string& name : annotations_) {
     h5.create_dataset(annotation_dataset(name), name == step_number ? H5T_STD_I64LE : H5T_IEEE_F64LE,
-                      slab_of({1, room_, 0, 1, 0, room_}, 1));
+                      whole(room_));
     table("FieldDataOffsets/" + name, 1, 1);
     table("FieldDataSizes/" + name, 2, 0, 1);  // one number of one component
   }

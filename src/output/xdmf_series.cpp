@@ -87,7 +87,7 @@ std::string XdmfSeries::item(const Place& place, const char* type, int bytes) co
   const std::string width = place.components == 1 ? "" : fmt::format(" {}", place.components);
   return fmt::format(
       R"(<DataItem Dimensions="{}{}" NumberType="{}" Precision="{}" Format="HDF">{}.h5:{}</DataItem>)",
-      file().layout().of(place.centring).global_count(), width, type, bytes, basename_, place.dataset);
+      file().layout().of(place.centring).global_count, width, type, bytes, basename_, place.dataset);
 }
 
 std::string XdmfSeries::reals(const Place& place) const {
@@ -106,7 +106,7 @@ std::string XdmfSeries::grid(const SeriesStep& moment, bool planned) const {
         </Topology>
 )",
       points ? "particles" : "network", moment.time_s, moment.step, points ? "Polyvertex" : "Polyline",
-      file().layout().cells.global_count(), points ? 1 : 2, item(connectivity(), "Int", 8));
+      file().layout().cells.global_count, points ? 1 : 2, item(connectivity(), "Int", 8));
   if (!points)
     text += fmt::format("        <Geometry GeometryType=\"XYZ\">{}</Geometry>\n", reals(fixed_positions()));
   for (const StoredField& field : fields()) {

@@ -53,7 +53,7 @@ class LaterSource : public PointSource {
   LaterSource(PointSource& source, const Pictures& pictures) : source_(source), pictures_(pictures) {}
   long step() const override { return source_.step() + pictures_.steps_before; }
   double time_s() const override { return source_.time_s() + pictures_.seconds_before; }
-  const PointLayout& layout() const override { return source_.layout(); }
+  const IdRanges& ids() const override { return source_.ids(); }
   std::span<const FieldInfo> fields() const override { return source_.fields(); }
   FieldView positions() override { return source_.positions(); }
   FieldView field(std::string_view name) override { return source_.field(name); }

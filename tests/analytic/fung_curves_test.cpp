@@ -78,7 +78,7 @@ class Rod {
               return std::array{(f.lateral - 1) * x[0], (f.lateral - 1) * x[1], (f.axial - 1) * x[2]};
             }),
         test::sample(*body_, test::nothing));
-    const std::int64_t rows = body_->layout().rows;
+    const std::int64_t rows = body_->columns()->rows;
     return body_->observe(0)
         .strain_energy_density[middle_ * static_cast<std::size_t>(rows) + static_cast<std::size_t>(rows / 2)];
   }

@@ -63,13 +63,13 @@ void set_state(peridynamics::Body& body, const Wall& wall) {
   body.set_state(test::sample(body, inflated), test::sample(body, test::nothing));
   if (wall.broken == 0) return;
   peridynamics::Body::Saved state = body.save();
-  const peridynamics::BondWordLayout layout = body.bond_word_layout();
+  const TablePart table = body.word_table();
   std::mt19937_64 random(1);
   std::bernoulli_distribution breaks(wall.broken);
   auto word = state.words.begin();
-  for (std::int64_t bond = 0; bond < layout.row_count; ++bond) {
+  for (std::int64_t bond = 0; bond < table.rows.local_count(); ++bond) {
     const bool all = wall.damage == "cracked" && breaks(random);
-    for (std::int64_t i = 0; i < layout.word_count; ++i, ++word) {
+    for (std::int64_t i = 0; i < table.count; ++i, ++word) {
       if (all) *word = 0;
       for (int bit = 0; wall.damage == "scattered" && bit < 16; ++bit) {
         if (breaks(random)) *word = static_cast<std::uint16_t>(*word & ~(1u << bit));
@@ -98,7 +98,7 @@ void run(benchmark::State& state, const Wall& wall, int threads) {
   const bool single = wall.bonds == "single";
   const auto peak = [&] { return single ? fma_rate<float>(threads) : fma_rate<double>(threads); };
   const Medians found = measure(state, peak, [&] { return advance(steps); });
-  const auto particles = static_cast<double>(body->layout().local_count());
+  const auto particles = static_cast<double>(body->ids().local_count());
   state.counters["bonds_per_s"] = found.rate / flop_per_directed_bond;
   state.counters["flop_per_s"] = found.rate;
   state.counters["ns_per_particle_step"] = 1e9 * found.seconds / (particles * steps);

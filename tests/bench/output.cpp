@@ -63,7 +63,7 @@ void write_frames(benchmark::State& state, double bytes, const peridynamics::Bod
   state.counters["bytes"] = bytes;
   state.counters["bytes_per_s"] = found.rate;
   state.counters["ms_per_frame"] = 1e3 * found.seconds;
-  state.counters["particles"] = static_cast<double>(body.layout().local_count());
+  state.counters["particles"] = static_cast<double>(body.ids().local_count());
 }
 
 void fields(benchmark::State& state, int rows, int threads) {
@@ -78,7 +78,7 @@ void fields(benchmark::State& state, int rows, int threads) {
     return Sample{now(threads) - start, flop};
   });
   state.counters["ms_per_frame"] = 1e3 * found.seconds;
-  state.counters["particles"] = static_cast<double>(body->layout().local_count());
+  state.counters["particles"] = static_cast<double>(body->ids().local_count());
 }
 
 void particles(benchmark::State& state, int rows, int samples, const std::filesystem::path& scratch) {
@@ -89,12 +89,12 @@ void particles(benchmark::State& state, int rows, int samples, const std::filesy
   plan.directory = folder.path;
   for (const FieldInfo& field : source.fields()) plan.fields.push_back(field);
   for (long step = 0; step < samples; ++step) plan.steps.push_back(step);
-  output::PointSeries series(plan, body->layout(), test::self());
+  output::PointSeries series(plan, body->ids(), test::self());
   const auto& observation = body->observe(pressure);
-  double bytes = 3 * sizeof(float) * static_cast<double>(body->layout().local_count());
+  double bytes = 3 * sizeof(float) * static_cast<double>(body->ids().local_count());
   for (const FieldInfo& field : plan.fields) {
     bytes += field.components * static_cast<double>(sizeof(float)) *
-             static_cast<double>(body->layout().local_count());
+             static_cast<double>(body->ids().local_count());
   }
   long step = 0;
   write_frames(state, bytes, *body, folder.path, [&] {
@@ -111,7 +111,7 @@ class TinySource : public PointSource {
   void move_on() { ++step_; }
   long step() const override { return step_; }
   double time_s() const override { return 1e-7 * static_cast<double>(step_); }
-  const PointLayout& layout() const override { return layout_; }
+  const IdRanges& ids() const override { return ids_; }
   std::span<const FieldInfo> fields() const override { return infos; }
   FieldView positions() override { return view_of({"position", "m", 3}); }
   FieldView field(std::string_view name) override {
@@ -127,8 +127,7 @@ class TinySource : public PointSource {
   FieldView view_of(const FieldInfo& info) const {
     return {info, {values_.data(), values_.data(), values_.data()}, values_.size()};
   }
-  PointLayout layout_{
-      .columns = 10, .rows = 10, .first_column = 0, .column_count = 10, .first_row = 0, .row_count = 10};
+  IdRanges ids_{.global_count = 100, .ranges = {{0, 100}}};
   std::vector<double> values_ = std::vector<double>(100, 1.0);
   long step_ = 0;
 };
@@ -144,7 +143,7 @@ void long_series(benchmark::State& state, long outputs, output::SeriesFormat for
   plan.annotations = {"pressure"};
   plan.formats = {format};
   const double start = now(1);
-  output::PointSeries series(plan, source.layout(), test::self());
+  output::PointSeries series(plan, source.ids(), test::self());
   state.counters["ms_to_lay_out"] = 1e3 * (now(1) - start);
   std::vector<double> seconds;
   for ([[maybe_unused]] auto _ : state) {
@@ -166,8 +165,6 @@ void checkpoint(benchmark::State& state, int rows, const std::filesystem::path& 
   const Folder folder(scratch);
   const auto body = body_of(rows);
   const auto size = body->save();
-  const peridynamics::BondWordLayout l = body->bond_word_layout();
-  const output::WordBlock words{l.rows, l.words, l.first_row, l.row_count, l.first_word, l.word_count};
   const double bytes = static_cast<double>(6 * sizeof(double) * size.displacement[0].size() +
                                            sizeof(std::uint16_t) * size.words.size());
   write_frames(state, bytes, *body, folder.path, [&] {
@@ -175,10 +172,10 @@ void checkpoint(benchmark::State& state, int rows, const std::filesystem::path& 
     output::CheckpointWriter file(folder.path / "checkpoint.h5", "bench", test::self());
     for (int i = 0; i < 16; ++i) file.write("number_" + std::to_string(i), 1.0);  // as many as VesselRun's
     for (std::size_t k = 0; k < 3; ++k) {
-      file.write("displacement_" + std::to_string(k), body->layout(), saved.displacement[k]);
-      file.write("velocity_" + std::to_string(k), body->layout(), saved.leapfrog_velocity[k]);
+      file.write("displacement_" + std::to_string(k), body->ids(), saved.displacement[k]);
+      file.write("velocity_" + std::to_string(k), body->ids(), saved.leapfrog_velocity[k]);
     }
-    file.write("intact_bonds", words, saved.words);
+    file.write("intact_bonds", body->word_table(), saved.words);
     file.close();
   });
 }

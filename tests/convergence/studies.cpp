@@ -161,7 +161,7 @@ EnergyError energy_error(const Discretisation& d, Strain strain) {
                                }),
                   test::sample(*body, test::nothing));
   const Observation& o = body->observe(0);
-  const PointLayout& l = body->layout();
+  const peridynamics::ColumnLayout& l = *body->columns();
   const Lattice lattice = make_lattice(p);
   EnergyError error{0, INFINITY, -INFINITY};
   double total = 0, exact_total = 0;
@@ -315,11 +315,11 @@ std::vector<Ring> expansion(const Discretisation& d, double pressure) {
   const Parameters p = vessel(d);
   const auto body = make_body(test::setup_of(p, 0.6 * stable_step(d)), test::self());
   test::bring_to_rest(*body, pressure, static_cast<int>(800 * d.across));
-  const PointLayout& l = body->layout();
+  const peridynamics::ColumnLayout& l = *body->columns();
   std::map<long, Ring> rings;
   std::map<long, int> count;
   for (std::int64_t c = 0; c < l.columns; ++c) {
-    const auto x = body->reference_position(c, 0);
+    const auto x = body->reference_position(l.particle(c, 0));
     const double r = std::hypot(x[0], x[1]);
     const auto i = static_cast<std::size_t>(c * l.rows);
     const long ring = std::lround(r / p.inner_radius * 1e6);
@@ -341,12 +341,12 @@ FreeEnds free_ends(const Discretisation& d, int rows) {
   const Equilibrium rest = find_equilibrium(test::setup_of(p, 1e-7), pressure, 1e-4, test::self());
   const double inner2 = p.inner_radius * p.inner_radius, outer2 = p.outer_radius * p.outer_radius;
   const double strain = pressure * inner2 / (p.young_modulus * (outer2 - inner2));
-  const PointLayout& l = body->layout();
+  const peridynamics::ColumnLayout& l = *body->columns();
   const std::int64_t middle = l.rows / 2;
   const Lattice lattice = make_lattice(p);
   double error = 0, size = 0, slope = 0, area = 0;
   for (std::int64_t c = 0; c < l.columns; ++c) {
-    const auto x = body->reference_position(c, middle);
+    const auto x = body->reference_position(l.particle(c, middle));
     const auto at = [&](std::int64_t row) { return static_cast<std::size_t>(c * l.rows + row); };
     const double r = std::hypot(x[0], x[1]), weight = lattice.section.area[static_cast<std::size_t>(c)];
     const double u = (rest.displacement[0][at(middle)] * x[0] + rest.displacement[1][at(middle)] * x[1]) / r;

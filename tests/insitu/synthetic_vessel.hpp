@@ -30,10 +30,11 @@ class SyntheticVessel : public PointSource {
         if (radius >= 1.5e-3 && radius <= 2e-3) columns_.push_back({x, y});
       }
     }
-    layout_.columns = layout_.column_count = static_cast<std::int64_t>(columns_.size());
-    layout_.rows = rows;
-    layout_.first_row = rows * rank / ranks;
-    layout_.row_count = rows * (rank + 1) / ranks - layout_.first_row;
+    first_row_ = rows * rank / ranks;
+    row_count_ = rows * (rank + 1) / ranks - first_row_;
+    ids_.global_count = static_cast<std::int64_t>(columns_.size()) * rows;
+    for (std::size_t column = 0; column < columns_.size(); ++column)
+      ids_.add({static_cast<std::int64_t>(column) * rows + first_row_, row_count_});
   }
 
   /// Moves on; `progress` runs from 0 (at rest) to 1 (torn open).
@@ -45,7 +46,7 @@ class SyntheticVessel : public PointSource {
 
   long step() const override { return step_; }
   double time_s() const override { return 2.5e-3 * progress_; }
-  const PointLayout& layout() const override { return layout_; }
+  const IdRanges& ids() const override { return ids_; }
   std::span<const FieldInfo> fields() const override { return field_infos; }
   std::vector<Annotation> annotations() const override { return {{"pressure", "Pa", 238e3}}; }
 
@@ -81,13 +82,13 @@ class SyntheticVessel : public PointSource {
 
   template <class Value>
   FieldView view(const FieldInfo& info, Value value_of) {
-    FieldView result{info, {}, static_cast<std::size_t>(layout_.local_count())};
+    FieldView result{info, {}, static_cast<std::size_t>(ids_.local_count())};
     for (int c = 0; c < info.components; ++c) {
       auto& values = memory_[std::string(info.name) + std::to_string(c)];
       values.reserve(result.count);
       for (std::size_t column = 0; column < columns_.size(); ++column) {
-        for (std::int64_t row = 0; row < layout_.row_count; ++row) {
-          values.push_back(value_of(particle(column, layout_.first_row + row), c));
+        for (std::int64_t row = 0; row < row_count_; ++row) {
+          values.push_back(value_of(particle(column, first_row_ + row), c));
         }
       }
       result.component[index(c)] = values.data();
@@ -122,7 +123,8 @@ class SyntheticVessel : public PointSource {
   }
 
   std::vector<std::array<double, 2>> columns_;
-  PointLayout layout_;
+  std::int64_t first_row_, row_count_;
+  IdRanges ids_;
   long step_ = 0;
   double progress_ = 0;
   std::map<std::string, std::vector<double>> memory_;

@@ -89,8 +89,8 @@ TEST_P(Invariance, BitIdentical) {
   const auto world = parallel::Communicator::world();
   const Outcome together =
       outcome(GetParam(), world, 2 + world.rank() % 2);  // ranks divide their parts unlike
-  const PointLayout& mine = together.body->layout();
-  const PointLayout& whole = alone.body->layout();
+  const ColumnLayout& mine = *together.body->columns();
+  const ColumnLayout& whole = *alone.body->columns();
   EXPECT_GT(alone.totals.broken_bonds, 1000) << "the test must break something to mean anything";
   EXPECT_EQ(alone.totals.broken_bonds, together.totals.broken_bonds);
   EXPECT_EQ(alone.totals.crushed_bonds, together.totals.crushed_bonds);
@@ -129,7 +129,7 @@ TEST_P(Invariance, EquilibriumIsBitIdentical) {
   EXPECT_EQ(alone.residual, together.residual);
   EXPECT_EQ(alone.strain_energy, together.strain_energy);
   const auto body = make_body(test::setup_of(p, 1e-6), parallel::Communicator::world());
-  const PointLayout& mine = body->layout();
+  const ColumnLayout& mine = *body->columns();
   for (std::int64_t c = 0; c < mine.column_count; ++c) {
     for (std::int64_t r = 0; r < mine.row_count; ++r) {
       const auto here = static_cast<std::size_t>(c * mine.row_count + r);

@@ -164,7 +164,7 @@ Spun spin(const Parameters& p) {
                     return std::array{-rate * x[1], rate * x[0], 0.0};
                   }));
   Spun spun;
-  const PointLayout& l = body->layout();
+  const ColumnLayout& l = *body->columns();
   const auto angular_momentum = [&] {
     const Observation& seen = body->observe(0);
     const auto u = body->displacement();
@@ -173,7 +173,7 @@ Spun spin(const Parameters& p) {
     std::size_t i = 0;
     for (std::int64_t c = 0; c < l.column_count; ++c) {
       for (std::int64_t r = 0; r < l.row_count; ++r, ++i) {
-        const auto x = body->reference_position(c, r);
+        const auto x = body->reference_position(l.particle(c, r));
         const double here[2] = {x[0] + u[0][i], x[1] + u[1][i]};
         spun.radius.push_back(std::hypot(here[0], here[1]));
         sum += setup.lattice.volume(static_cast<std::size_t>(c)) *

@@ -85,7 +85,7 @@ TEST_P(LongRun, FragmentsInFreeFlightKeepEnergyAndMomentum) {
                     return std::array{0.0, 0.0, x[2] > middle ? 20.0 : -20.0};
                   }));
   body->advance(0, 0);
-  const PointLayout& l = body->layout();
+  const ColumnLayout& l = *body->columns();
   const auto momentum = [&] {
     const Observation& seen = body->observe(0);
     std::array<double, 3> sum{};

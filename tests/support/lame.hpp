@@ -22,9 +22,9 @@ inline peridynamics::ElasticError error_at_rest(const peridynamics::Parameters& 
   EXPECT_LT(body->totals().kinetic, 1e-5 * body->totals().strain) << "not at rest";
 
   double error = 0, size = 0, least = INFINITY, most = 0;
-  const PointLayout& l = body->layout();
+  const peridynamics::ColumnLayout& l = *body->columns();
   for (std::int64_t c = 0; c < l.columns; ++c) {
-    const auto x = body->reference_position(c, 0);
+    const auto x = body->reference_position(l.particle(c, 0));
     const double r = std::hypot(x[0], x[1]);
     const auto i = static_cast<std::size_t>(c * l.rows);
     const double u = (body->displacement()[0][i] * x[0] + body->displacement()[1][i] * x[1]) / r;

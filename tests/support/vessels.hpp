@@ -91,12 +91,10 @@ inline double stable_step_of(const peridynamics::BodySetup& s) {
 template <class Function>
 std::array<std::vector<double>, 3> sample(const peridynamics::Body& body, const Function& function) {
   std::array<std::vector<double>, 3> values;
-  const PointLayout& l = body.layout();
-  for (std::int64_t c = 0; c < l.column_count; ++c) {
-    for (std::int64_t r = 0; r < l.row_count; ++r) {
-      const std::array<double, 3> v = function(body.reference_position(c, r));
-      for (std::size_t k = 0; k < 3; ++k) values[k].push_back(v[k]);
-    }
+  const auto particles = static_cast<std::size_t>(body.ids().local_count());
+  for (std::size_t i = 0; i < particles; ++i) {
+    const std::array<double, 3> v = function(body.reference_position(i));
+    for (std::size_t k = 0; k < 3; ++k) values[k].push_back(v[k]);
   }
   return values;
 }
@@ -123,7 +121,7 @@ inline double shadow_energy(peridynamics::Body& body, const peridynamics::BodySe
   const peridynamics::Totals t = body.totals();
   body.advance(0, 0);
   const auto& after = body.observe(0).force_density;
-  const auto rows = static_cast<std::size_t>(body.layout().row_count);
+  const auto rows = static_cast<std::size_t>(body.columns()->row_count);
   const double dt = setup.time_step;
   double terms = 0;
   for (std::size_t k = 0; k < 3; ++k) {

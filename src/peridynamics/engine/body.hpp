@@ -10,15 +10,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "core/field_view.hpp"
+#include "core/id_ranges.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/halo.hpp"
 #include "peridynamics/engine/body_setup.hpp"
 #include "peridynamics/engine/body_size.hpp"
+#include "peridynamics/engine/column_layout.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -33,7 +35,7 @@ struct StepEvents {
 /// Damage from which a particle counts as ruptured (run.json: rupture_onset_s, rupture_length_m).
 inline constexpr double rupture_damage = 0.2;
 
-/// Per-particle values at one moment, owned particles, column by column; SI units.
+/// Per-particle values at one moment, owned particles; SI units.
 struct Observation {
   std::array<std::vector<double>, 3> velocity;       ///< m/s
   std::array<std::vector<double>, 3> force_density;  ///< N/m3: bonds and pressure
@@ -66,31 +68,30 @@ inline bool holds_no_more_than_was_put_in(const Totals& t) {
          energy <= (t.crushed_bonds > 0 ? 1.1 : 2.0) * (std::abs(t.external_work) + t.lost);
 }
 
-/// This rank's part of the table of bond words of the whole body. The table has a row per bond of each
-/// column's family, and a word per 16 particles along the axis.
-struct BondWordLayout {
-  std::int64_t rows = 0, words = 0;  ///< of the whole body
-  std::int64_t first_row = 0, row_count = 0;
-  std::int64_t first_word = 0, word_count = 0;
-};
-
 class Body {
  public:
   virtual ~Body() = default;
 
-  virtual const PointLayout& layout() const = 0;
+  /// Which of all particles are on this rank; all arrays of particles are in this order.
+  virtual const IdRanges& ids() const = 0;
+  /// The topology of a tube; null of any other body. For those that measure tubes only.
+  virtual const ColumnLayout* columns() const { return nullptr; }
   /// Displacement u (m) of owned particles, structure of arrays.
   virtual std::array<std::span<const double>, 3> displacement() const = 0;
-  /// Reference positions (m) of owned particle (local column, local row).
-  virtual std::array<double, 3> reference_position(std::int64_t column, std::int64_t row) const = 0;
+  /// Reference position (m) of an owned particle.
+  virtual std::array<double, 3> reference_position(std::size_t particle) const = 0;
+  /// Volumes (m3) of owned particles.
+  virtual std::vector<double> volumes() const = 0;
+  /// Sets the components that the ends hold to 0 in a vector field over owned particles.
+  virtual void clear_held(std::array<std::vector<double>, 3>& field) const = 0;
 
   /// Sets displacement (m) and velocity (m/s) at the present time; bonds stay as they are.
   virtual void set_state(const std::array<std::vector<double>, 3>& displacement,
                          const std::array<std::vector<double>, 3>& velocity) = 0;
 
-  /// Sets the pressure in each row [rows of the whole body] relative to the one that steps are given, 0 to 1;
-  /// it is 1 until then. The profile takes effect on work and observations too.
-  virtual void set_axial_profile(std::vector<double> profile) = 0;
+  /// Sets the pressure at each height z (m) relative to the one that steps are given, 0 to 1; it is 1 until
+  /// then. The profile takes effect on work and observations too.
+  virtual void set_axial_profile(const std::function<double(double z)>& profile) = 0;
 
   /// Advances by one step under `pressure` (Pa) at t_n; `next_pressure` is the one at t_{n+1}, for the work
   /// done. Collective.
@@ -118,7 +119,7 @@ class Body {
   /// All that a restart needs.
   struct Saved {
     std::array<std::vector<double>, 3> displacement, leapfrog_velocity;  ///< m, m/s, of owned particles
-    std::vector<std::uint16_t> words;                                    ///< of bonds, see bond_word_layout
+    std::vector<std::uint16_t> words;                                    ///< of bonds' bits, see word_table
     bool first_kick_pending = false;  ///< velocities are at the same time as displacements
     /// J, exact as two doubles (ExactSum::parts): the work done so far, and the energy of dilatation that
     /// breaking bonds released, 0 where the law has none.
@@ -132,7 +133,8 @@ class Body {
       return 6 * size.particles() * sizeof(double) + size.words() * sizeof(std::uint16_t);
     }
   };
-  virtual BondWordLayout bond_word_layout() const = 0;
+  /// Where this rank's words of bonds' bits lie among those of the whole body.
+  virtual TablePart word_table() const = 0;
   virtual Saved save() const = 0;
   virtual void restore(const Saved& saved) = 0;
 };

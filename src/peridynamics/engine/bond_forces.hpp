@@ -105,7 +105,7 @@ class BondForces {
   /// when observing, in its `sums`. Calls `use(slot)` for each column once its sums are complete.
   template <bool observing, class Use>
   void sum(Subdomain& s, ThreadEvents& events, const Use& use) {
-    const PointLayout& layout = input_.domain.layout();
+    const ColumnLayout& layout = input_.domain.layout();
     const bool below = input_.domain.periodic() || layout.first_row + s.first_row > 0;
     const bool above = input_.domain.periodic() || layout.first_row + s.past_row < layout.rows;
     if (!std::exchange(s.beyond_known, true)) {

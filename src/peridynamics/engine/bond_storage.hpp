@@ -129,19 +129,21 @@ class BondStorage {
   std::int64_t intact_count() const { return intact_count_; }
   void count_broken(std::int64_t bonds) { intact_count_ -= bonds; }
 
-  BondWordLayout word_layout() const {
-    const PointLayout& l = domain_->layout();
+  /// A row per bond of each column's family, and a word per 16 particles along the axis.
+  TablePart word_table() const {
+    const ColumnLayout& l = domain_->layout();
     const auto& first = families_->first;
-    const std::int64_t row = first[static_cast<std::size_t>(l.first_column)];
-    return {first.back(),
-            (l.rows + block_rows - 1) / block_rows,
-            row,
-            first[static_cast<std::size_t>(l.first_column + l.column_count)] - row,
-            l.first_row / block_rows,
-            domain_->blocks()};
+    const std::int64_t row = first[static_cast<std::size_t>(l.first_column)],
+                       past = first[static_cast<std::size_t>(l.first_column + l.column_count)];
+    TablePart part{.rows = {.global_count = first.back()},
+                   .width = (l.rows + block_rows - 1) / block_rows,
+                   .first = l.first_row / block_rows,
+                   .count = domain_->blocks()};
+    part.rows.add({row, past - row});
+    return part;
   }
 
-  /// All words in the order of `word_layout`.
+  /// All words in the order of `word_table`.
   std::vector<std::uint16_t> save() const {
     std::vector<std::uint16_t> saved;
     saved.reserve(intact_.size());
@@ -175,7 +177,7 @@ class BondStorage {
   }
 
   void make_constants(const KernelUnits& units) {
-    const PointLayout& layout = domain_->layout();
+    const ColumnLayout& layout = domain_->layout();
     const auto& first = families_->first;
     constants_.reserve(
         static_cast<std::size_t>(first[static_cast<std::size_t>(layout.first_column + layout.column_count)] -
@@ -206,7 +208,7 @@ class BondStorage {
   }
 
   void make_words() {
-    const PointLayout& layout = domain_->layout();
+    const ColumnLayout& layout = domain_->layout();
     family_volume_.resize(static_cast<std::size_t>(layout.local_count()));
     intact_.resize(constants_.size() * static_cast<std::size_t>(domain_->blocks()));
     changed_.resize(static_cast<std::size_t>(layout.column_count * domain_->blocks()), 1);

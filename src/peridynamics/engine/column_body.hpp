@@ -44,6 +44,7 @@ class ColumnBody final : public Body {
         comm_(comm),
         threads_(parallel::thread_count()),
         domain_(checked_domain(setup_, comm)),
+        ids_(domain_.layout().ids()),
         units_(setup_.lattice, setup_.bond_constant),
         load_(setup_, domain_, comm),
         properties_(setup_, domain_, threads_),
@@ -73,7 +74,8 @@ class ColumnBody final : public Body {
            FractureEnergy<Law, Real>::bytes(size) + dilatation;
   }
 
-  const PointLayout& layout() const override { return domain_.layout(); }
+  const IdRanges& ids() const override { return ids_; }
+  const ColumnLayout* columns() const override { return &domain_.layout(); }
   std::array<std::span<const double>, 3> displacement() const override { return {u_[0], u_[1], u_[2]}; }
   std::int64_t bonds() const override {
     return comm_.all_reduce(bonds_.initial_count(), parallel::Reduce::sum) / 2;
@@ -84,12 +86,15 @@ class ColumnBody final : public Body {
     return halo_.traffic();
   }
 
-  std::array<double, 3> reference_position(std::int64_t column, std::int64_t row) const override {
-    const PointLayout& l = domain_.layout();
-    const auto c = static_cast<std::size_t>(l.first_column + column);
+  std::array<double, 3> reference_position(std::size_t particle) const override {
+    const ColumnLayout& l = domain_.layout();
+    const auto rows = static_cast<std::size_t>(l.row_count);
+    const std::size_t c = static_cast<std::size_t>(l.first_column) + particle / rows;
     return {setup_.lattice.section.x[c], setup_.lattice.section.y[c],
-            setup_.lattice.height(l.first_row + row)};
+            setup_.lattice.height(l.first_row + static_cast<std::int64_t>(particle % rows))};
   }
+  std::vector<double> volumes() const override;
+  void clear_held(std::array<std::vector<double>, 3>& field) const override;
 
   void set_state(const std::array<std::vector<double>, 3>& displacement,
                  const std::array<std::vector<double>, 3>& velocity) override {
@@ -101,13 +106,18 @@ class ColumnBody final : public Body {
     displacement_.fill(u_);
   }
 
-  void set_axial_profile(std::vector<double> profile) override { load_.set_profile(std::move(profile)); }
+  void set_axial_profile(const std::function<double(double z)>& profile) override {
+    std::vector<double> shares(static_cast<std::size_t>(domain_.layout().rows));
+    for (std::size_t row = 0; row < shares.size(); ++row)
+      shares[row] = profile(setup_.lattice.height(static_cast<std::int64_t>(row)));
+    load_.set_profile(std::move(shares));
+  }
   StepEvents advance(double pressure, double next_pressure) override;
   void find_forces() override;
   const Observation& observe(double pressure) override;
   Totals totals() const override;
   double max_displacement() const override;
-  BondWordLayout bond_word_layout() const override { return bonds_.word_layout(); }
+  TablePart word_table() const override { return bonds_.word_table(); }
   Saved save() const override;
   void restore(const Saved& saved) override;
 
@@ -150,6 +160,7 @@ class ColumnBody final : public Body {
   parallel::Communicator comm_;
   int threads_;
   Domain domain_;
+  IdRanges ids_;
   KernelUnits units_;
   PressureLoad load_;
   PlaceProperties<Real> properties_;

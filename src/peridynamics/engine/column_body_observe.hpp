@@ -138,6 +138,31 @@ Totals ColumnBody<Law, Real>::totals() const {
 }
 
 template <class Law, class Real>
+std::vector<double> ColumnBody<Law, Real>::volumes() const {
+  const ColumnLayout& l = domain_.layout();
+  std::vector<double> volumes;
+  volumes.reserve(particles());
+  for (std::int64_t c = 0; c < l.column_count; ++c) {
+    volumes.insert(volumes.end(), static_cast<std::size_t>(l.row_count),
+                   setup_.lattice.volume(static_cast<std::size_t>(l.first_column + c)));
+  }
+  return volumes;
+}
+
+template <class Law, class Real>
+void ColumnBody<Law, Real>::clear_held(std::array<std::vector<double>, 3>& field) const {
+  const ColumnLayout& l = domain_.layout();
+  for (int k = 0; k < 3; ++k) {
+    const auto [first_free, past_free] = local_free_rows(0, l.row_count, k);
+    for (std::int64_t c = 0; c < l.column_count; ++c) {
+      const auto column = field[static_cast<std::size_t>(k)].begin() + c * l.row_count;
+      std::fill(column, column + first_free, 0.0);
+      std::fill(column + past_free, column + l.row_count, 0.0);
+    }
+  }
+}
+
+template <class Law, class Real>
 double ColumnBody<Law, Real>::max_displacement() const {
   std::vector<double> largest(static_cast<std::size_t>(threads_));
   parallel::for_each_share(threads_, particles(), [&](int thread, std::size_t begin, std::size_t end) {

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "core/field_view.hpp"
 #include "parallel/halo.hpp"
 #include "parallel/partition.hpp"
 #include "peridynamics/bonds/bond_family.hpp"
 #include "peridynamics/engine/body_size.hpp"
+#include "peridynamics/engine/column_layout.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -36,7 +36,7 @@ class Domain {
   /// Memory of the ranks' domains, and of the cross-section and the layer that each rank holds.
   static double bytes(const BodySize& size) { return 100 * size.columns * size.ranks; }
 
-  const PointLayout& layout() const { return layout_; }
+  const ColumnLayout& layout() const { return layout_; }
   bool periodic() const { return periodic_; }
   /// Blocks of 16 rows of each owned column.
   std::int64_t blocks() const { return (layout_.row_count + block_rows - 1) / block_rows; }
@@ -93,7 +93,7 @@ class Domain {
   int rank_;
   bool periodic_;
   int reach_;
-  PointLayout layout_;
+  ColumnLayout layout_;
   std::size_t front_ = 0, stride_ = 0;
   std::vector<std::int32_t> slot_column_;   ///< slot -> global column
   std::vector<std::int32_t> slot_of_;       ///< global column -> slot, -1 where not here

@@ -110,7 +110,7 @@ class BondDisplacement {
 
   /// Writes owned rows of both copies, because held rows are never written again.
   void fill(const std::array<std::vector<double>, 3>& u) {
-    const PointLayout& layout = domain_->layout();
+    const ColumnLayout& layout = domain_->layout();
     for (Copy& copy : copies_) {
       for (std::size_t k = 0; k < 3; ++k) {
         const FrameAxis axis = frame_.axis(k);

@@ -73,7 +73,7 @@ class PlaceProperties {
   };
 
   static RowHeights row_heights(const BodySetup& setup, const Domain& domain) {
-    const PointLayout& l = domain.layout();
+    const ColumnLayout& l = domain.layout();
     const std::int64_t reach = setup.families->reach;
     const std::int64_t below = domain.periodic() ? reach : std::min(reach, l.first_row);
     const std::int64_t past = l.row_count + reach;

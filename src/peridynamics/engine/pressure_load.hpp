@@ -21,7 +21,7 @@ class PressureLoad {
     for (std::size_t c = 0; c < setup.layer.bx.size(); ++c)
       largest_ = std::max(largest_, std::hypot(setup.layer.bx[c], setup.layer.by[c]));
     if (setup.thin_spots.none()) return;
-    const PointLayout& l = domain.layout();
+    const ColumnLayout& l = domain.layout();
     for (std::int32_t slot = 0; slot < l.column_count; ++slot) {
       const std::size_t c = domain.global_column(slot);
       for (std::int64_t r = 0; r < l.row_count; ++r) {

@@ -119,7 +119,7 @@ class ThreadSubdomain : public SubdomainExtent {
 template <class Real>
 std::vector<ThreadSubdomain<Real>> make_subdomains(const Domain& domain, const BondStorage<Real>& bonds,
                                                    const BondFamilies& families, int threads) {
-  const PointLayout& layout = domain.layout();
+  const ColumnLayout& layout = domain.layout();
   std::vector<double> weights;
   for (std::int32_t slot = 0; slot < layout.column_count; ++slot)
     weights.push_back(static_cast<double>(bonds.count(slot)));

@@ -71,7 +71,8 @@ std::vector<std::size_t> empty_runs(std::span<const std::uint64_t> row) {
 
 OpeningGauge::OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm,
                            EndCondition ends, const ThinSpots& thin_spots)
-    : body_(&body),
+    : lattice_(&lattice),
+      body_(&body),
       comm_(comm),
       periodic_(ends == EndCondition::axial_periodic),
       thin_spots_(thin_spots),
@@ -104,15 +105,17 @@ struct OpeningGauge::Rows {
 };
 
 void OpeningGauge::look_at(std::size_t column, Rows& rows) const {
-  const PointLayout& layout = body_->layout();
+  const ColumnLayout& layout = *body_->columns();
   const auto u = body_->displacement();
   const std::size_t words = bins_ / 64,
                     sector = sector_of_[static_cast<std::size_t>(layout.first_column) + column];
-  std::size_t i = column * static_cast<std::size_t>(layout.row_count);
+  std::size_t i = layout.particle(static_cast<std::int64_t>(column), 0);
+  const std::size_t c = static_cast<std::size_t>(layout.first_column) + column;
+  const double x = lattice_->section.x[c], y = lattice_->section.y[c];
   for (std::int64_t r = 0; r < layout.row_count; ++r, ++i) {
-    const auto x = body_->reference_position(static_cast<std::int64_t>(column), r);
-    if (!thin_spots_.none() && !thin_spots_.present(x[0], x[1], x[2])) continue;
-    const double px = x[0] + u[0][i], py = x[1] + u[1][i], pz = x[2] + u[2][i];
+    const double z = lattice_->height(layout.first_row + r);
+    if (!thin_spots_.none() && !thin_spots_.present(x, y, z)) continue;
+    const double px = x + u[0][i], py = y + u[1][i], pz = z + u[2][i];
     const auto row = static_cast<std::size_t>(layout.first_row + r);
     const auto bin = std::min(bins_ - 1, static_cast<std::size_t>(turn(px, py) * static_cast<double>(bins_)));
     rows.occupied[row * words + bin / 64] |= std::uint64_t{1} << (bin % 64);
@@ -125,7 +128,7 @@ void OpeningGauge::look_at(std::size_t column, Rows& rows) const {
 }
 
 double OpeningGauge::area() const {
-  const PointLayout& layout = body_->layout();
+  const ColumnLayout& layout = *body_->columns();
   const std::size_t words = bins_ / 64;
   const double bin_width = 2 * std::numbers::pi / static_cast<double>(bins_);
   const int threads = parallel::thread_count();
@@ -176,7 +179,7 @@ double OpeningGauge::area() const {
 }
 
 LumenGauge::LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm)
-    : body_(&body), comm_(comm) {
+    : lattice_(&lattice), body_(&body), comm_(comm) {
   const CrossSection& s = lattice.section;
   double least = INFINITY;
   for (std::size_t c = 0; c < s.size(); ++c) least = std::min(least, std::hypot(s.x[c], s.y[c]));
@@ -189,18 +192,19 @@ LumenGauge::LumenGauge(const Lattice& lattice, const Body& body, parallel::Commu
 
 std::vector<double> LumenGauge::stretch_of_rows() const {
   constexpr double quantum = 0x1p-40;  // of stretch: sums of integers do not depend on ranks
-  const PointLayout& layout = body_->layout();
+  const ColumnLayout& layout = *body_->columns();
   const auto u = body_->displacement();
   std::vector<std::int64_t> stretch(static_cast<std::size_t>(layout.rows));
   for (const std::int64_t column : innermost_) {
     const std::int64_t c = column - layout.first_column;
     if (c < 0 || c >= layout.column_count) continue;
+    const double x = lattice_->section.x[static_cast<std::size_t>(column)],
+                 y = lattice_->section.y[static_cast<std::size_t>(column)];
     for (std::int64_t r = 0; r < layout.row_count; ++r) {
-      const auto i = static_cast<std::size_t>(c * layout.row_count + r);
-      const auto x = body_->reference_position(c, r);
-      const double now = std::hypot(x[0] + u[0][i], x[1] + u[1][i]);
+      const std::size_t i = layout.particle(c, r);
+      const double now = std::hypot(x + u[0][i], y + u[1][i]);
       stretch[static_cast<std::size_t>(layout.first_row + r)] +=
-          std::llround(std::min(now / std::hypot(x[0], x[1]), 1e4) / quantum);
+          std::llround(std::min(now / std::hypot(x, y), 1e4) / quantum);
     }
   }
   comm_.all_reduce(stretch, parallel::Reduce::sum);

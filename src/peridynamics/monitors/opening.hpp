@@ -24,6 +24,7 @@ namespace rhexis::peridynamics {
 /// so the result does not depend on ranks.
 class OpeningGauge {
  public:
+  /// Of a body of columns; it and `lattice` must live on.
   OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm, EndCondition ends,
                const ThinSpots& thin_spots = {});
 
@@ -40,6 +41,7 @@ class OpeningGauge {
   /// Adds the particles of one of this rank's columns.
   void look_at(std::size_t column, Rows& rows) const;
 
+  const Lattice* lattice_;
   const Body* body_;
   parallel::Communicator comm_;
   bool periodic_;
@@ -54,6 +56,7 @@ class OpeningGauge {
 /// How wide the lumen is, measured on the innermost particles of each axial row.
 class LumenGauge {
  public:
+  /// Of a body of columns; it and `lattice` must live on.
   LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);
 
   /// Resistance to flow by Eq. (9) of the deformed vessel over that of the undeformed: the mean over rows of
@@ -69,6 +72,7 @@ class LumenGauge {
   /// r / r0 of every axial row of the whole vessel, [rows]. Collective.
   std::vector<double> stretch_of_rows() const;
 
+  const Lattice* lattice_;
   const Body* body_;
   parallel::Communicator comm_;
   std::vector<std::int64_t> innermost_;  ///< columns, ascending

@@ -44,13 +44,10 @@ void ParticleSource::moment(long step, double time_s, const Observation& observa
 /// Reference positions plus u(component, particle).
 template <class Displacement>
 FieldView ParticleSource::fill_positions(std::string_view name, const Displacement& u) {
-  const PointLayout& l = layout();
-  for (auto& component : positions_) component.resize(static_cast<std::size_t>(l.local_count()));
-  const auto rows = static_cast<std::size_t>(l.row_count);
+  for (auto& component : positions_) component.resize(static_cast<std::size_t>(ids().local_count()));
   const auto fill = [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const auto x =
-          body_->reference_position(static_cast<std::int64_t>(i / rows), static_cast<std::int64_t>(i % rows));
+      const auto x = body_->reference_position(i);
       for (std::size_t k = 0; k < 3; ++k) positions_[k][i] = x[k] + u(k, i);
     }
   };

@@ -24,7 +24,7 @@ class ParticleSource final : public PointSource {
 
   long step() const override { return step_; }
   double time_s() const override { return time_; }
-  const PointLayout& layout() const override { return body_->layout(); }
+  const IdRanges& ids() const override { return body_->ids(); }
   std::span<const FieldInfo> fields() const override { return all_fields(); }
   FieldView positions() override;
   /// Positions of the body at rest; valid until `positions` or the next moment.

@@ -16,12 +16,9 @@ class Accelerations {
   explicit Accelerations(const BodySetup& setup)
       : body_(make_body(periodic_piece(setup), parallel::Communicator::self())),
         size_(1e-5 * setup.lattice.spacing),
-        density_(setup.density) {
-    const PointLayout& l = body_->layout();
-    for (std::int64_t c = 0; c < l.column_count; ++c) {
-      volume_.insert(volume_.end(), static_cast<std::size_t>(l.row_count),
-                     setup.lattice.volume(static_cast<std::size_t>(c)) / std::pow(setup.lattice.spacing, 3));
-    }
+        density_(setup.density),
+        volume_(body_->volumes()) {
+    for (double& volume : volume_) volume /= std::pow(setup.lattice.spacing, 3);
     for (std::vector<double>& component : rest_) component.assign(volume_.size(), 0.0);
   }
 

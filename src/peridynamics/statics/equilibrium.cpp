@@ -32,7 +32,8 @@ class Relaxation {
     body_ = make_body(BodySetup(setup_), comm);
     for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c)
       load_ = std::max(load_, pressure * std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
-    const auto particles = static_cast<std::size_t>(body_->layout().local_count());
+    const auto particles = static_cast<std::size_t>(body_->ids().local_count());
+    volumes_ = body_->volumes();
     for (std::size_t k = 0; k < 3; ++k) {
       displacement_[k].assign(particles, 0.0);
       velocity_[k].assign(particles, 0.0);
@@ -44,7 +45,7 @@ class Relaxation {
     for (; found.steps < most_steps; ++found.steps) {
       const Observation& seen = body_->observe(pressure_);
       force_ = seen.force_density;
-      drop_held_forces();
+      body_->clear_held(force_);
       found.residual = largest_force() / load_;
       if (found.residual <= tolerance) {
         found.largest_energy_density = comm_.all_reduce(
@@ -66,18 +67,6 @@ class Relaxation {
   }
 
  private:
-  void drop_held_forces() {
-    const PointLayout& l = body_->layout();
-    for (int k = 0; k < 3; ++k) {
-      const auto [first, past] = free_rows(setup_, k);
-      for (std::int64_t r = 0; r < l.row_count; ++r) {
-        if (l.first_row + r >= first && l.first_row + r < past) continue;
-        for (std::int64_t c = 0; c < l.column_count; ++c)
-          force_[static_cast<std::size_t>(k)][static_cast<std::size_t>(c * l.row_count + r)] = 0;
-      }
-    }
-  }
-
   double largest_force() const {
     double largest = 0;
     for (const std::vector<double>& component : force_) {
@@ -90,10 +79,8 @@ class Relaxation {
   void step() {
     const double usual_speed = 100 * load_ / setup_.density * step_;
     parallel::ExactSum power(load_ * usual_speed), forces(load_ * load_), speeds(usual_speed * usual_speed);
-    const auto rows = static_cast<std::size_t>(body_->layout().row_count);
-    const auto first_column = static_cast<std::size_t>(body_->layout().first_column);
     for (std::size_t i = 0; i < force_[0].size(); ++i) {
-      const double share = setup_.lattice.volume(first_column + i / rows) / setup_.lattice.volume(0);
+      const double share = volumes_[i] / setup_.lattice.volume(0);
       double fv = 0, ff = 0, vv = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         fv += force_[k][i] * velocity_[k][i];
@@ -125,8 +112,9 @@ class Relaxation {
   double pressure_;
   parallel::Communicator comm_;
   std::unique_ptr<Body> body_;
-  double step_ = 0;  ///< s
-  double load_ = 0;  ///< N/m3, the largest of the pressure layer
+  double step_ = 0;              ///< s
+  double load_ = 0;              ///< N/m3, the largest of the pressure layer
+  std::vector<double> volumes_;  ///< m3
   Field displacement_, velocity_, force_;
   double turn_ = first_turn;
   int downhill_ = 0;  ///< steps since the forces last did no work

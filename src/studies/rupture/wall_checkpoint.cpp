@@ -13,19 +13,14 @@ using peridynamics::Body;
 constexpr const char* axes[] = {"x", "y", "z"};
 constexpr double largest = output::CheckpointReader::largest;
 
-output::WordBlock word_block(const Body& body) {
-  const peridynamics::BondWordLayout l = body.bond_word_layout();
-  return {l.rows, l.words, l.first_row, l.row_count, l.first_word, l.word_count};
-}
-
 /// The distributed arrays, by name and layout, once for writing and for reading.
 template <class Saved, class Visit>
 void for_each_array(const Body& body, Saved& saved, const Visit& visit) {
   for (std::size_t k = 0; k < 3; ++k) {
-    visit(fmt::format("displacement_{}", axes[k]), body.layout(), saved.displacement[k]);
-    visit(fmt::format("leapfrog_velocity_{}", axes[k]), body.layout(), saved.leapfrog_velocity[k]);
+    visit(fmt::format("displacement_{}", axes[k]), body.ids(), saved.displacement[k]);
+    visit(fmt::format("leapfrog_velocity_{}", axes[k]), body.ids(), saved.leapfrog_velocity[k]);
   }
-  visit("intact_bonds", word_block(body), saved.words);
+  visit("intact_bonds", body.word_table(), saved.words);
 }
 
 /// What a wall's state is besides its arrays.

@@ -83,8 +83,8 @@ TEST(WallSegment, KeepsTheUsersSpacing) {
 TEST(AxialProfile, IsOneToTheLastBitUnderUniformLoad) {
   const double p = 12345.678901;
   const WallSegment segment = choose_wall_segment(paper, 55000, false);
-  for (const double share : axial_profile({{p, p, p}}, paper, segment, 97, segment.spacing))
-    EXPECT_EQ(share, 1.0);
+  const auto profile = axial_profile({{p, p, p}}, paper, segment);
+  for (int row = 0; row < 97; ++row) EXPECT_EQ(profile((row + 0.5) * segment.spacing), 1.0);
 }
 
 TEST(AxialProfile, IsLinearBetweenEndsAndMiddle) {
@@ -97,11 +97,11 @@ TEST(AxialProfile, IsLinearBetweenEndsAndMiddle) {
   WallSegment segment;
   segment.start = 2e-3;
   segment.length = 6e-3;
-  const auto profile = axial_profile(load, paper, segment, 6, 1e-3);
+  const auto profile = axial_profile(load, paper, segment);
   // Of the load on the segment itself, which ends at 2 and 8 of 10 mm.
   EXPECT_NEAR(largest_load(load, paper, segment), 320, 1e-12);
-  EXPECT_NEAR(profile.front(), 300.0 / 320, 1e-15);  // at 2.5 mm
-  EXPECT_NEAR(profile.back(), 150.0 / 320, 1e-15);   // at 7.5 mm
+  EXPECT_NEAR(profile(0.5e-3), 300.0 / 320, 1e-15);  // at 2.5 mm
+  EXPECT_NEAR(profile(5.5e-3), 150.0 / 320, 1e-15);  // at 7.5 mm
   EXPECT_EQ(largest_load({{100, 500, 0}}, paper, segment), 500);
 }
 

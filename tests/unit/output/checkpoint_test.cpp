@@ -17,7 +17,6 @@ namespace {
 
 using output::CheckpointReader;
 using output::CheckpointWriter;
-using output::WordBlock;
 using parallel::Communicator;
 using test::TemporaryDirectory;
 
@@ -38,41 +37,33 @@ void on_ranks(int count, Action&& action) {
 }
 
 /// Divides the table among ranks along its rows and words, as a body among blocks.
-WordBlock divided_table(const Communicator& ranks, int parts) {
-  const PointLayout like = test::divided(table_rows, table_words, ranks, parts);
-  return {.rows = table_rows,
-          .words = table_words,
-          .first_row = like.first_column,
-          .row_count = like.column_count,
-          .first_word = like.first_row,
-          .word_count = like.row_count};
+TablePart divided_table(const Communicator& ranks, int parts) {
+  return test::divided_table(table_rows, table_words, ranks, parts);
 }
 
-std::vector<double> numbers(const PointLayout& layout) {
+std::vector<double> numbers(const IdRanges& ids) {
   std::vector<double> values;
-  for (std::int64_t c = 0; c < layout.column_count; ++c) {
-    for (std::int64_t r = 0; r < layout.row_count; ++r) {
-      values.push_back(1.0 /
-                       static_cast<double>(1 + (layout.first_column + c) * rows + layout.first_row + r));
-    }
+  for (const IdRange& range : ids.ranges) {
+    for (std::int64_t id = range.first; id < range.first + range.count; ++id)
+      values.push_back(1.0 / static_cast<double>(1 + id));
   }
   return values;
 }
 
-std::vector<std::uint16_t> words(const WordBlock& block) {
+std::vector<std::uint16_t> words(const TablePart& part) {
   std::vector<std::uint16_t> values;
-  for (std::int64_t r = 0; r < block.row_count; ++r) {
-    for (std::int64_t w = 0; w < block.word_count; ++w) {
-      values.push_back(
-          static_cast<std::uint16_t>(60000 + (block.first_row + r) * table_words + block.first_word + w));
+  for (const IdRange& range : part.rows.ranges) {
+    for (std::int64_t r = range.first; r < range.first + range.count; ++r) {
+      for (std::int64_t w = 0; w < part.count; ++w)
+        values.push_back(static_cast<std::uint16_t>(60000 + r * table_words + part.first + w));
     }
   }
   return values;
 }
 
 void write_checkpoint(const std::filesystem::path& path, const Communicator& ranks, int parts) {
-  const PointLayout layout = test::divided(columns, rows, ranks, parts);
-  const WordBlock block = divided_table(ranks, parts);
+  const IdRanges layout = test::divided(columns, rows, ranks, parts);
+  const TablePart block = divided_table(ranks, parts);
   CheckpointWriter writer(path, "1.2.3", ranks);
   writer.write("velocity_x", layout, numbers(layout));
   writer.write("bonds", block, words(block));
@@ -87,8 +78,8 @@ void write_checkpoint(const std::filesystem::path& path, const Communicator& ran
 }
 
 void expect_checkpoint(const std::filesystem::path& path, const Communicator& ranks, int parts) {
-  const PointLayout layout = test::divided(columns, rows, ranks, parts);
-  const WordBlock block = divided_table(ranks, parts);
+  const IdRanges layout = test::divided(columns, rows, ranks, parts);
+  const TablePart block = divided_table(ranks, parts);
   CheckpointReader reader(path, ranks);
   std::vector<double> velocity(static_cast<std::size_t>(layout.local_count()));
   reader.read("velocity_x", layout, velocity);
@@ -148,7 +139,7 @@ TEST(Checkpoint, AFullDiskIsAnErrorOnAllRanksAndLeavesNothing) {
   const TemporaryDirectory directory;
   const test::SmallDisk disk(directory.path(), 400 * 1024);
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
-  const PointLayout layout = test::divided(200, 100, world, 1);
+  const IdRanges layout = test::divided(200, 100, world, 1);
   const std::vector<double> values(static_cast<std::size_t>(layout.local_count()));
   const std::string message = test::message_of<RunError>([&] {
     CheckpointWriter writer(directory / "state.h5", "1.2.3", world);
@@ -192,7 +183,7 @@ TEST(Checkpoint, WhatDiffersIsNamed) {
   const auto path = directory / "state.h5";
   write_checkpoint(path, world, 1);
   CheckpointReader reader(path, world);
-  const PointLayout longer = test::divided(columns, rows + 1, world, 1);
+  const IdRanges longer = test::divided(columns, rows + 1, world, 1);
   std::vector<double> values(static_cast<std::size_t>(longer.local_count()));
   std::int64_t number = 0;
   const std::string shape = test::message_of<InputError>([&] { reader.read("velocity_x", longer, values); });
@@ -207,7 +198,7 @@ TEST(Checkpoint, WhatDiffersIsNamed) {
 TEST(Checkpoint, NumbersThatMakeNoSenseAreNamed) {
   const TemporaryDirectory directory;
   const auto path = directory / "state.h5";
-  const PointLayout layout = test::divided(columns, rows, world, 1);
+  const IdRanges layout = test::divided(columns, rows, world, 1);
   {
     CheckpointWriter writer(path, "1.2.3", world);
     std::vector<double> values = numbers(layout);
@@ -256,8 +247,8 @@ TEST(Checkpoint, DamageIsRefusedWithTheNameOfWhatItHit) {
   const auto bytes_of = [](const auto& value) {
     return std::string(reinterpret_cast<const char*>(&value), sizeof value);
   };
-  const PointLayout layout = test::divided(columns, rows, world, 1);
-  const WordBlock block = divided_table(world, 1);
+  const IdRanges layout = test::divided(columns, rows, world, 1);
+  const TablePart block = divided_table(world, 1);
   std::vector<double> values(static_cast<std::size_t>(layout.local_count()));
   std::vector<std::uint16_t> bonds(static_cast<std::size_t>(block.local_count()));
   std::string text;

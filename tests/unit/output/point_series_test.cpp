@@ -54,7 +54,7 @@ TEST(PointSeries, HoldsEveryValueHoweverTheBodyIsDivided) {
       PointSeriesPlan plan = plan_in(directory.path(), {0, 50});
       plan.precision = precision;
       {
-        PointSeries series(plan, source.layout(), world);
+        PointSeries series(plan, source.ids(), world);
         series.write_reference(source.positions());
         series.write(source);
         source.move_to(50);
@@ -77,11 +77,22 @@ TEST(PointSeries, HoldsEveryValueHoweverTheBodyIsDivided) {
   }
 }
 
+TEST(PointSeries, HoldsParticlesOfRangesOfAnyLength) {
+  const TemporaryDirectory directory;
+  SyntheticSource source(test::dealt_out(150, world), 50);
+  {
+    PointSeries series(plan_in(directory.path(), {50}), source.ids(), world);
+    series.write_reference(source.positions());
+    series.write(source);
+  }
+  if (world.is_root()) expect_step(directory / "particles.h5", 150, 50, "000050");
+}
+
 TEST(PointSeries, FilesAreTheSameBytesOnAnyNumberOfRanks) {
   const TemporaryDirectory directory, alone;
   const auto write = [](const std::filesystem::path& where, const Communicator& ranks, int parts) {
     SyntheticSource source(test::divided(9, 17, ranks, parts), 50);
-    PointSeries series(plan_in(where, {50}), source.layout(), ranks);
+    PointSeries series(plan_in(where, {50}), source.ids(), ranks);
     series.write_reference(source.positions());
     series.write(source);
   };
@@ -101,7 +112,7 @@ TEST(PointSeries, ACopyTakenMidwayHoldsTheStepsSoFar) {
     return test::text_of(directory / "particles.xdmf").find("/damage/" + place) != std::string::npos;
   };
   {
-    PointSeries series(plan_in(directory.path(), {0, 50, 100}), source.layout(), world);
+    PointSeries series(plan_in(directory.path(), {0, 50, 100}), source.ids(), world);
     for (const long step : {0, 50}) {
       source.move_to(step);
       series.write(source);
@@ -128,7 +139,7 @@ TEST(PointSeries, StepsNotYetWrittenTakeNoDiskSpace) {
   const std::int64_t bytes_of_step = 50 * 200 * 7 * 4;
   std::vector<long> steps(100);
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i] = static_cast<long>(10 * i);
-  PointSeries series(plan_in(directory.path(), steps), source.layout(), world);
+  PointSeries series(plan_in(directory.path(), steps), source.ids(), world);
   series.write(source);
   if (!world.is_root()) return;
   EXPECT_GT(static_cast<std::int64_t>(std::filesystem::file_size(directory / "particles.h5")),
@@ -139,7 +150,7 @@ TEST(PointSeries, StepsNotYetWrittenTakeNoDiskSpace) {
 TEST(PointSeries, AnEarlyEndHasAPlaceOfItsOwn) {
   const TemporaryDirectory directory;
   SyntheticSource source(test::divided(9, 17, world, 1), 0);
-  PointSeries series(plan_in(directory.path(), {0, 50, 100}), source.layout(), world);
+  PointSeries series(plan_in(directory.path(), {0, 50, 100}), source.ids(), world);
   for (const long step : {0, 50, 61, 73}) {
     source.move_to(step);
     series.write(source);
@@ -158,7 +169,7 @@ TEST(PointSeries, AFullDiskIsAnErrorOnAllRanksAndLeavesEarlierSteps) {
   const test::SmallDisk disk(directory.path(), 4 * bytes_of_step + 160000);
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
   SyntheticSource source(test::divided(50, 200, world, 1), 0);
-  PointSeries series(plan_in(directory.path(), {0, 50, 100, 150}), source.layout(), world);
+  PointSeries series(plan_in(directory.path(), {0, 50, 100, 150}), source.ids(), world);
   series.write(source);
   std::string message;
   for (long step = 50; step <= 150 && message.empty(); step += 50) {
@@ -189,7 +200,7 @@ TEST(PointSeries, ADiskTooSmallForTheLayoutIsAnErrorOnAllRanks) {
     if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
     const SyntheticSource source(test::divided(50, 200, world, 1), 0);
     const std::string message = test::message_of<RunError>(
-        [&] { const PointSeries series(plan_in(directory.path(), {0}), source.layout(), world); });
+        [&] { const PointSeries series(plan_in(directory.path(), {0}), source.ids(), world); });
     EXPECT_EQ(message,
               (directory / "particles.h5").string() + ": cannot reserve disk space: No space left on device");
   }
@@ -199,7 +210,7 @@ TEST(PointSeries, AFolderThatIsNotThereIsAnErrorOnAllRanks) {
   const TemporaryDirectory directory;
   const SyntheticSource source(test::divided(9, 17, world, 1), 0);
   const std::string message = test::message_of<RunError>(
-      [&] { const PointSeries series(plan_in(directory / "missing", {0}), source.layout(), world); });
+      [&] { const PointSeries series(plan_in(directory / "missing", {0}), source.ids(), world); });
   EXPECT_NE(message.find("missing/particles.h5: cannot create the file: No such file"), std::string::npos)
       << message;
 }

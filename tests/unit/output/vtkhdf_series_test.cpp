@@ -72,7 +72,7 @@ TEST(VtkHdfSeries, HoldsEveryValueOfPointsThatMove) {
     output::SeriesPlan plan = plan_in(directory.path(), SyntheticSource::infos);
     plan.precision = precision;
     {
-      output::PointSeries series(plan, source.layout(), world);
+      output::PointSeries series(plan, source.ids(), world);
       series.write_reference(source.positions());
       for (const long step : {0, 50, 73}) {
         source.move_to(step);
@@ -147,7 +147,7 @@ TEST(VtkHdfSeries, FilesAreTheSameBytesOnAnyNumberOfRanks) {
   const TemporaryDirectory directory, alone;
   const auto write = [](const std::filesystem::path& folder, const parallel::Communicator& ranks) {
     SyntheticSource source(test::divided(9, 17, ranks, 1), 50);
-    output::PointSeries points(plan_in(folder, SyntheticSource::infos), source.layout(), ranks);
+    output::PointSeries points(plan_in(folder, SyntheticSource::infos), source.ids(), ranks);
     points.write_reference(source.positions());
     points.write(source);
     SyntheticLines lines(500, ranks, 50);
@@ -166,7 +166,7 @@ TEST(VtkHdfSeries, BothFormatsStandSideBySide) {
   output::SeriesPlan plan = plan_in(directory.path(), SyntheticSource::infos);
   plan.formats = {SeriesFormat::xdmf, SeriesFormat::vtkhdf};
   {
-    output::PointSeries series(plan, source.layout(), world);
+    output::PointSeries series(plan, source.ids(), world);
     series.write_reference(source.positions());
     series.write(source);
   }
@@ -179,7 +179,7 @@ TEST(VtkHdfSeries, BothFormatsStandSideBySide) {
 TEST(VtkHdfSeries, ACopyTakenMidwayCountsTheStepsSoFar) {
   const TemporaryDirectory directory;
   SyntheticSource source(test::divided(9, 17, world, 1), 0);
-  output::PointSeries series(plan_in(directory.path(), SyntheticSource::infos), source.layout(), world);
+  output::PointSeries series(plan_in(directory.path(), SyntheticSource::infos), source.ids(), world);
   const auto copy = directory / "copy.vtkhdf";
   std::int64_t steps = 0;
   for (const long step : {0, 50}) {
@@ -200,7 +200,7 @@ TEST(VtkHdfSeries, ACopyTakenMidwayCountsTheStepsSoFar) {
 TEST(VtkHdfSeries, AnEarlyEndIsTheLastStepAndDisplacesAnother) {
   const TemporaryDirectory directory;
   SyntheticSource source(test::divided(9, 17, world, 1), 0);
-  output::PointSeries series(plan_in(directory.path(), SyntheticSource::infos), source.layout(), world);
+  output::PointSeries series(plan_in(directory.path(), SyntheticSource::infos), source.ids(), world);
   for (const long step : {0, 61, 73}) {
     source.move_to(step);
     series.write(source);
@@ -217,7 +217,7 @@ TEST(VtkHdfSeries, AFullDiskIsAnErrorOnAllRanksAndLeavesEarlierSteps) {
   const test::SmallDisk disk(directory.path(), 2 * particles * 7 * 4 + particles * (12 + 16) + 160000);
   if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
   SyntheticSource source(test::divided(50, 200, world, 1), 0);
-  output::PointSeries series(plan_in(directory.path(), SyntheticSource::infos), source.layout(), world);
+  output::PointSeries series(plan_in(directory.path(), SyntheticSource::infos), source.ids(), world);
   std::string message;
   for (long step = 0; step <= 100 && message.empty(); step += 50) {
     source.move_to(step);
@@ -239,7 +239,7 @@ TEST(VtkHdfSeries, ADiskTooSmallForTheLayoutIsAnErrorOnAllRanks) {
     if (!disk.mounted()) GTEST_SKIP() << "mounting a small file system takes the superuser";
     const SyntheticSource source(test::divided(50, 200, world, 1), 0);
     const std::string message = test::message_of<RunError>([&] {
-      const output::PointSeries series(plan_in(directory.path(), SyntheticSource::infos), source.layout(),
+      const output::PointSeries series(plan_in(directory.path(), SyntheticSource::infos), source.ids(),
                                        world);
     });
     EXPECT_EQ(message, (directory / "particles.vtkhdf").string() +

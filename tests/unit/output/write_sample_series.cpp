@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
                                        .steps = {0, 50, 100}};
   plan.formats = {rhexis::output::SeriesFormat::xdmf, rhexis::output::SeriesFormat::vtkhdf};
   if (argv[2] == std::string("double")) plan.precision = rhexis::Precision::double_precision;
-  rhexis::output::PointSeries series(plan, source.layout(), world);
+  rhexis::output::PointSeries series(plan, source.ids(), world);
   for (const long step : {0, 50, 73}) {
     source.move_to(step);
     series.write(source);

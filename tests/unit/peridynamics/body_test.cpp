@@ -108,14 +108,14 @@ TEST_P(InPrecision, MomentumIsConserved) {
   body->set_state(test::sample(*body, test::wild(setup.lattice.spacing)), test::sample(*body, test::nothing));
   const Observation& seen = body->observe(0);
   EXPECT_GT(body->totals().broken_bonds, 0);
-  const PointLayout& l = body->layout();
+  const ColumnLayout& l = *body->columns();
   double sum[3] = {}, size = 0, moment = 0;
   std::size_t i = 0;
   const auto u = body->displacement();
   for (std::int64_t c = 0; c < l.column_count; ++c) {
     const double volume = setup.lattice.volume(static_cast<std::size_t>(c));
     for (std::int64_t r = 0; r < l.row_count; ++r, ++i) {
-      const auto x = body->reference_position(c, r);
+      const auto x = body->reference_position(l.particle(c, r));
       for (std::size_t k = 0; k < 3; ++k) sum[k] += volume * seen.force_density[k][i];
       size += volume * std::abs(seen.force_density[0][i]);
       moment += volume *
@@ -196,7 +196,7 @@ TEST_P(InPrecision, HalvedBodyHasTheDamageOfItsCut) {
                                }),
                   test::sample(*body, test::nothing));
   const Observation& seen = body->observe(0);
-  const PointLayout& l = body->layout();
+  const ColumnLayout& l = *body->columns();
   std::int64_t cut = 0;
   for (std::int64_t c = 0; c < l.columns; ++c) {
     for (std::int64_t r = 0; r < l.rows; ++r) {
@@ -223,9 +223,9 @@ TEST(Body, HeldEndsStayAndSlidingEndsSlide) {
     const auto body = make_body(test::setup_of(p, 5e-7), test::self());
     for (int i = 0; i < 100; ++i) body->advance(20e3, 20e3);
     const auto u = body->displacement();
-    const std::int64_t rows = body->layout().rows;
+    const std::int64_t rows = body->columns()->rows;
     double held_radial = 0, held_axial = 0, middle = 0;
-    for (std::int64_t c = 0; c < body->layout().columns; ++c) {
+    for (std::int64_t c = 0; c < body->columns()->columns; ++c) {
       for (std::int64_t r : {std::int64_t{0}, std::int64_t{3}, rows - 4, rows - 1}) {
         held_radial = std::max(held_radial, std::hypot(u[0][c * rows + r], u[1][c * rows + r]));
         held_axial = std::max(held_axial, std::abs(u[2][c * rows + r]));
@@ -255,8 +255,8 @@ TEST(Body, PeriodicVesselDoesNotKnowWhereItIsCut) {
   const auto body = make_body(test::setup_of(p, 5e-7), test::self());
   for (int i = 0; i < 50; ++i) body->advance(20e3, 20e3);
   const auto u = body->displacement();
-  const std::int64_t rows = body->layout().rows;
-  for (std::int64_t c = 0; c < body->layout().columns; ++c) {
+  const std::int64_t rows = body->columns()->rows;
+  for (std::int64_t c = 0; c < body->columns()->columns; ++c) {
     for (std::int64_t r = 1; r < rows; ++r) ASSERT_EQ(u[0][c * rows + r], u[0][c * rows]);
   }
 }

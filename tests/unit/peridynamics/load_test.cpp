@@ -297,7 +297,8 @@ TEST(AxialProfile, ScalesTheLoadRowByRow) {
   const auto uniform = body->observe(1000).force_density;
   std::vector<double> profile(rows);
   for (std::size_t r = 0; r < rows; ++r) profile[r] = static_cast<double>(r) / static_cast<double>(rows);
-  body->set_axial_profile(profile);
+  body->set_axial_profile(
+      [&](double z) { return profile[static_cast<std::size_t>(z / setup.lattice.row_spacing)]; });
   const auto& sloped = body->observe(1000).force_density;
   for (std::size_t i = 0; i < uniform[0].size(); ++i) {
     for (int k = 0; k < 2; ++k) EXPECT_EQ(sloped[k][i], profile[i % rows] * uniform[k][i]) << i;

@@ -74,7 +74,7 @@ Rod strained(double nu, const std::array<std::array<double, 3>, 3>& strain) {
   const double whole = Lps::weighted_volume(3.5);
   rod.weighted_volume /= whole;
   rod.shear_sum /= whole;
-  const std::int64_t rows = body->layout().rows;
+  const std::int64_t rows = body->columns()->rows;
   rod.energy = body->observe(0).strain_energy_density[middle * static_cast<std::size_t>(rows) +
                                                       static_cast<std::size_t>(rows / 2)];
   return rod;
@@ -137,7 +137,7 @@ double longest_stable_step(const Parameters& p) {
     return v;
   });
   const auto still = test::sample(*body, test::nothing);
-  const auto rows = static_cast<std::size_t>(body->layout().rows);
+  const auto rows = static_cast<std::size_t>(body->columns()->rows);
   const auto product = [&](const auto& a, const auto& b) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {

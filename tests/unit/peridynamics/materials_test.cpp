@@ -102,7 +102,7 @@ TEST_P(EachLaw, ActionIsReaction) {
   body->set_state(test::sample(*body, test::wild(setup.lattice.spacing)), test::sample(*body, test::nothing));
   const Observation& seen = body->observe(0);
   EXPECT_GT(body->totals().broken_bonds, 0);
-  const PointLayout& l = body->layout();
+  const ColumnLayout& l = *body->columns();
   double sum[3] = {}, size = 0;
   for (std::int64_t i = 0; i < l.local_count(); ++i) {
     const double volume = setup.lattice.volume(static_cast<std::size_t>(i / l.row_count));

@@ -12,8 +12,8 @@ namespace rhexis::peridynamics {
 namespace {
 
 /// Bit of a bond in saved words: of `row` of the whole body, bond `b` of all columns' (one rank).
-bool intact(const Body::Saved& saved, const BondWordLayout& layout, std::int64_t b, std::int64_t row) {
-  return saved.words[static_cast<std::size_t>(b * layout.words + row / 16)] >> (row % 16) & 1;
+bool intact(const Body::Saved& saved, const TablePart& table, std::int64_t b, std::int64_t row) {
+  return saved.words[static_cast<std::size_t>(b * table.width + row / 16)] >> (row % 16) & 1;
 }
 
 /// A wide tube, which threads share by columns, or a slender rod, which they share by rows; the last block of
@@ -52,7 +52,7 @@ TEST_P(Threads, BothEndsKnowThatABondIsBroken) {
   std::int64_t told = 0;
   for (int i = 0; i < 30; ++i) told += body->advance(0, 0).broken;
   const Body::Saved saved = body->save();
-  const BondWordLayout layout = body->bond_word_layout();
+  const TablePart table = body->word_table();
   const BondFamilies& f = *setup.families;
   std::int64_t broken = 0;
   for (std::size_t c = 0; c + 1 < f.first.size(); ++c) {
@@ -70,8 +70,8 @@ TEST_P(Threads, BothEndsKnowThatABondIsBroken) {
         } else if (there < 0 || there >= setup.lattice.rows) {
           continue;
         }
-        const bool here = intact(saved, layout, b, row);
-        ASSERT_EQ(here, intact(saved, layout, back, there)) << c << ' ' << row << ' ' << bond.row_offset;
+        const bool here = intact(saved, table, b, row);
+        ASSERT_EQ(here, intact(saved, table, back, there)) << c << ' ' << row << ' ' << bond.row_offset;
         broken += here ? 0 : 1;
       }
     }

@@ -32,10 +32,12 @@ Parameters spotted(double critical_stretch, double stiffness, double thickness) 
 /// Calls f(particle, reference position, column) for all particles of a body on one rank.
 template <class Function>
 void for_each_particle(const Body& body, const Function& f) {
-  std::size_t i = 0;
-  for (std::int64_t c = 0; c < body.layout().columns; ++c) {
-    for (std::int64_t r = 0; r < body.layout().rows; ++r, ++i)
-      f(i, body.reference_position(c, r), static_cast<std::size_t>(c));
+  const ColumnLayout& l = *body.columns();
+  for (std::int64_t c = 0; c < l.columns; ++c) {
+    for (std::int64_t r = 0; r < l.rows; ++r) {
+      const std::size_t i = l.particle(c, r);
+      f(i, body.reference_position(i), static_cast<std::size_t>(c));
+    }
   }
 }
 
