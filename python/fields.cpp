@@ -102,7 +102,8 @@ void define_fields(py::module_& module) {
 void ProgressCaller::call(const insitu::Channels& channels) const {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   if (function_.is_none()) return;
-  const py::object particles = shown(channels.particles), vessels = shown(channels.network);
+  const py::object particles = shown(insitu::find_source<PointSource>(channels, "particles")),
+                   vessels = shown(insitu::find_source<LineSource>(channels, "network"));
   const auto end_all = [&] {
     end<PointSource>(particles);
     end<LineSource>(vessels);

@@ -14,7 +14,7 @@
 #include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/viscosity.hpp"
 #include "parallel/together.hpp"
-#include "peridynamics/monitors/opening.hpp"
+#include "peridynamics/loads/venting.hpp"
 
 namespace rhexis::coupling {
 

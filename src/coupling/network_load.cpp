@@ -18,9 +18,9 @@ void NetworkLoad::at_moment(peridynamics::VesselSimulation& simulation) {
   if (!vessel_->due(simulation.step_number())) return;
   peridynamics::LoadState& load = simulation.load();
   if (simulation.rupture().onset) {
-    load.open_area = simulation.opening().area();
+    load.open_area = simulation.gauge().open_area();
   } else {
-    load.resistance_factor = simulation.lumen().resistance_factor();
+    load.resistance_factor = simulation.gauge().resistance_factor();
   }
   const double time = simulation.time();
   vessel_->exchange({.time_s = time,

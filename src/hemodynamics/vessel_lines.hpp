@@ -49,11 +49,16 @@ class VesselLines : public LineSource {
                               std::span<const std::uint32_t> vessels, std::span<const double> haematocrit,
                               const VesselMechanics& mechanics);
 
-  void annotate(std::vector<Annotation> notes) { annotations_ = std::move(notes); }
+  /// A new moment; the first is step 0 at 0 s, without annotations.
+  void moment(long step, double time_s, std::vector<Annotation> annotations) {
+    step_ = step;
+    time_s_ = time_s;
+    annotations_ = std::move(annotations);
+  }
   std::size_t count() const { return connectivity_.size() / 2; }
 
-  long step() const override { return 0; }
-  double time_s() const override { return 0; }
+  long step() const override { return step_; }
+  double time_s() const override { return time_s_; }
   FieldView positions() override;
   std::span<const std::int64_t> connectivity() override { return connectivity_; }
   std::span<const FieldInfo> fields() const override;
@@ -70,6 +75,8 @@ class VesselLines : public LineSource {
   std::int64_t add_point(const network::Point& position, double pressure);
   void add(const Vessel& vessel, const VesselMechanics& mechanics);
 
+  long step_ = 0;
+  double time_s_ = 0;
   std::array<std::vector<double>, 3> position_;
   std::vector<double> pressure_;
   std::vector<std::int64_t> connectivity_;

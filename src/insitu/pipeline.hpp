@@ -5,15 +5,16 @@
 ///     const insitu::Settings settings{.scripts = {"/home/me/vessel.py"}, .image_directory = "images"};
 ///     auto pipeline = insitu::load_pipeline(settings, parallel::Communicator::world());
 ///     for (...) {                                       // every rank calls all of these, in the same order
-///       if (pipeline->wants(step, time_s)) pipeline->process({.particles = &body, .network = nullptr});
+///       if (pipeline->wants(step, time_s)) pipeline->process(step, time_s, {{"particles", &body}});
 ///     }
 ///     pipeline->finish();                               // before MPI ends
 #pragma once
 
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "core/enum_names.hpp"
@@ -33,15 +34,20 @@ constexpr auto name_table(Renderer) {
       {{automatic, "auto"}, {osmesa, "osmesa"}, {egl, "egl"}, {x11, "x11"}});
 }
 
+/// What a channel of the run is called (`particles`, `network`), and the names of its fields.
+struct ChannelFields {
+  std::string name;
+  std::vector<std::string> fields;
+};
+
 struct Settings {
   std::vector<std::string>
       scripts;                  ///< absolute paths of Catalyst V2 Python scripts (.py or package folders)
   std::string image_directory;  ///< every extract of every script lands here; made with the first picture
   Renderer renderer = Renderer::automatic;
-  /// Names of the fields of the channels `particles` and `network`; nothing: the run has no such channel.
-  std::optional<std::vector<std::string>> particle_fields, network_fields;
-  double time_limit_s = 600;  ///< of one script at one step
-  std::string live;           ///< host:port where ParaView listens (Catalyst Live); empty: nobody
+  std::vector<ChannelFields> channels;  ///< that the run has
+  double time_limit_s = 600;            ///< of one script at one step
+  std::string live;                     ///< host:port where ParaView listens (Catalyst Live); empty: nobody
   /// Called on every rank once a script's pictures of a step are written. What it throws, `process` throws.
   std::function<void(const std::string& script, long step)> after_script;
   /// Told the reason before the program is ended because a script does not end (on this rank; perhaps on
@@ -54,14 +60,25 @@ struct NotAvailable : RunError {
   using RunError::RunError;
 };
 
-/// What a run shows at one moment; null is what it does not have, on all ranks alike (never both). Where
-/// there are both, step and time are those of the particles.
-struct Channels {
-  PointSource* particles = nullptr;
-  LineSource* network = nullptr;
+/// Something that a run shows under a name.
+struct Channel {
+  std::string name;
+  std::variant<PointSource*, LineSource*> source;
 };
+/// What a run shows at one moment, the same names on all ranks.
+using Channels = std::vector<Channel>;
 
-/// Catalyst scripts at work on what a run shows, which they know as the channels `particles` and `network`
+/// The source of this name and kind; null where there is none.
+template <class Source>
+Source* find_source(const Channels& channels, std::string_view name) {
+  for (const Channel& channel : channels) {
+    if (channel.name != name) continue;
+    if (Source* const* source = std::get_if<Source*>(&channel.source)) return *source;
+  }
+  return nullptr;
+}
+
+/// Catalyst scripts at work on what a run shows, which they know as channels, `particles` and `network`
 /// (or by the names of the saved files, `particles.xdmf` and `network.xdmf`; a reader of any saved file
 /// becomes a source of the run).
 ///
@@ -87,13 +104,14 @@ class Pipeline {
   /// until then the answer is yes.
   virtual bool wants(long step, double time_s) = 0;
 
-  /// Runs the scripts that want this step, each on copies of what it asks for. Throws RunError, naming
+  /// Runs the scripts that want this step, each on copies of what it asks for; `step` and `time_s` are those
+  /// that they see. Throws RunError, naming
   /// script, line and reason, if a script fails on any rank, takes longer than the limit, or leaves the
   /// process changed (working folder, handlers of signals ...). Should ranks get stuck because a script
   /// raised on one while the others wait for it inside ParaView, or should a script wait for ever inside a
   /// library, the program is ended (MPI_Abort, status 3) after RHEXIS_SCRIPT_TIMEOUT seconds (environment
   /// variable, default 60).
-  virtual void process(const Channels& channels) = 0;
+  virtual void process(long step, double time_s, const Channels& channels) = 0;
 
   /// Ends scripts and ParaView (as the destructor does, which however cannot tell that a script failed in
   /// doing so); no other call may follow, and MPI must not end before. A process can load one pipeline only.

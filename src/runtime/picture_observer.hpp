@@ -29,11 +29,11 @@ class PictureObserver final : public Observer {
 
   bool wants(const Moment& moment) override {
     // Scripts are asked last: the answer may need all ranks.
-    return pictures_.pipeline && due(moment) &&
-           pictures_.pipeline->wants(moment.step + pictures_.steps_before,
-                                     moment.time_s + pictures_.seconds_before);
+    return due(moment) && pictures_.wants(moment.step, moment.time_s);
   }
-  void observe(const Moment&) override { pictures_.process(plan_.channels()); }
+  void observe(const Moment& moment) override {
+    pictures_.process(moment.step, moment.time_s, plan_.channels());
+  }
 
  private:
   bool due(const Moment& moment) const {

@@ -21,8 +21,7 @@ insitu::Settings settings_for(const PicturesPlan& plan) {
   insitu::Settings settings;
   settings.scripts = plan.insitu.scripts;
   settings.renderer = plan.insitu.renderer;
-  settings.particle_fields = plan.particle_fields;
-  settings.network_fields = plan.network_fields;
+  settings.channels = plan.channels;
   settings.live = plan.insitu.live;
   // A run that is watched may be paused.
   settings.time_limit_s =
@@ -100,9 +99,13 @@ void find_scripts(PicturesPlan& plan, const std::string& input_file, parallel::C
   }
 }
 
-void Pictures::process(const insitu::Channels& channels) {
+bool Pictures::wants(long step, double time_s) {
+  return pipeline && pipeline->wants(step + steps_before, time_s + seconds_before);
+}
+
+void Pictures::process(long step, double time_s, const insitu::Channels& channels) {
   staging->open();
-  pipeline->process(channels);
+  pipeline->process(step + steps_before, time_s + seconds_before, channels);
 }
 
 Pictures start_pictures(const PicturesPlan& plan, const output::ResultsFolder& results,

@@ -17,14 +17,17 @@
 namespace rhexis::runtime {
 
 struct Pictures {
+  /// Whether some script wants this moment. Collective; throws as insitu::Pipeline.
+  bool wants(long step, double time_s);
   /// Runs the scripts; their pictures become results, in images/, when they are complete. Collective; throws
   /// as insitu::Pipeline, and RunError where a picture would replace one of the user's or of another script.
-  void process(const insitu::Channels& channels);
+  void process(long step, double time_s, const insitu::Channels& channels);
 
   std::unique_ptr<output::StagingFolder> staging;  ///< where scripts draw
   std::unique_ptr<insitu::Pipeline> pipeline;      ///< null: no pictures
   std::string description;                         ///< who draws, or why nobody does; empty: not started
-  /// Where several runs share them, one after the other: steps and seconds of those before.
+  /// Where several runs share them, one after the other: steps and seconds of those before, which scripts see
+  /// added to those of the run at hand.
   long steps_before = 0;
   double seconds_before = 0;
 };
@@ -32,8 +35,7 @@ struct Pictures {
 /// What a run is to draw.
 struct PicturesPlan {
   insitu::Parameters insitu = {};
-  /// Names of the fields of the channels `particles` and `network`; none: the run has no such channel.
-  std::optional<std::vector<std::string>> particle_fields = {}, network_fields = {};
+  std::vector<insitu::ChannelFields> channels = {};  ///< that the run has
   std::string obstacle = {};  ///< why there can be no pictures, where scripts are named; else empty
 };
 
@@ -46,22 +48,5 @@ void find_scripts(PicturesPlan& plan, const std::string& input_file, parallel::C
 /// `find_scripts`.
 Pictures start_pictures(const PicturesPlan& plan, const output::ResultsFolder& results,
                         parallel::Communicator comm, std::function<void(const std::string&)> before_abort);
-
-/// A run's particles with the steps and seconds of the runs before.
-class LaterSource : public PointSource {
- public:
-  LaterSource(PointSource& source, const Pictures& pictures) : source_(source), pictures_(pictures) {}
-  long step() const override { return source_.step() + pictures_.steps_before; }
-  double time_s() const override { return source_.time_s() + pictures_.seconds_before; }
-  const IdRanges& ids() const override { return source_.ids(); }
-  std::span<const FieldInfo> fields() const override { return source_.fields(); }
-  FieldView positions() override { return source_.positions(); }
-  FieldView field(std::string_view name) override { return source_.field(name); }
-  std::vector<Annotation> annotations() const override { return source_.annotations(); }
-
- private:
-  PointSource& source_;
-  const Pictures& pictures_;
-};
 
 }  // namespace rhexis::runtime

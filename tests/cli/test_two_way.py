@@ -6,14 +6,17 @@ Run by ctest as: test_two_way.py RHEXIS MPIRUN...
 
 import json
 import math
+import re
 import shutil
+import subprocess
 import sys
+import time
 import unittest
 
 import h5py
 
-from coupled_case import (ARTERY, BED, BLOOD_DENSITY, BLOOD_VISCOSITY, DISCHARGE, FEEDER, MMHG, TREE, TWO_WAY, VESSELS, CoupledCase, at_once,
-                          changed)
+from coupled_case import (ARTERY, BED, BLOOD_DENSITY, BLOOD_VISCOSITY, DISCHARGE, FEEDER, MMHG, RHEXIS, TREE, TWO_WAY, VESSELS, CoupledCase,
+                          at_once, changed)
 
 TORN_TREE = changed(TREE, "vessel", 'vessel = "artery.0"\nmode = "two_way"\nwindow = "20 us"\nresolution = "paper"')
 TORN_TREE = changed(TORN_TREE, "end", 'end = "0.8 ms"') + """\
@@ -162,6 +165,25 @@ class TwoWay(CoupledCase):
                 for field in ("position", "velocity", "damage"):
                     self.assertEqual(a[f"{field}/000200"][()].tobytes(), b[f"{field}/000200"][()].tobytes(), field)
         self.assert_other_networks_are_refused(scene, "whole/checkpoints/step_000132.h5")
+
+    def test_a_moment_that_cannot_be_stored_is_gone_on_from(self):
+        """Though the network has answered to it already: an exchange that is done anew counts once."""
+        scene = changed(TWO_WAY, "end", 'end = "1 ms"')
+        results = self.run_well(scene, "whole")
+        self.write({"cut.toml": scene})
+        history = self.path / "cut/history.csv"
+        with subprocess.Popen([RHEXIS, "run", "cut.toml", "-o", "cut"], cwd=self.path, stdout=subprocess.PIPE, text=True) as run:
+            while run.poll() is None and not (history.exists() and history.read_text().count("\n") > 3):
+                time.sleep(0.001)
+            history.unlink()
+            said = run.communicate(timeout=120)[0]
+        self.assertEqual(run.returncode, 3)
+        checkpoint = re.search(r"failed; go on with --restart (\S+)", said).group(1)
+        last = self.rows("cut/coupling.csv")[-1]["time_s"]
+        rest = self.run_well(scene, "cut", more=["--restart", checkpoint])
+        self.assertAlmostEqual(last, int(re.search(r"(\d+)\.h5", checkpoint).group(1)) * results["time_step_s"], delta=1e-12)
+        self.assertEqual(rest, results)
+        self.assertEqual((self.path / "cut/coupling.csv").read_bytes(), (self.path / "whole/coupling.csv").read_bytes())
 
     def assert_other_networks_are_refused(self, scene, checkpoint):
         self.write({"scene.toml": scene, "wide.csv": VESSELS.replace("0.3,50", "0.31,50"), "other.csv": VESSELS.replace("artery,neck", "nerve,neck")})

@@ -45,8 +45,8 @@ void run(rhexis::insitu::Settings settings, const std::string& channels, int fra
   rhexis::test::SyntheticVessel vessel(world.rank(), world.size());
   rhexis::test::SyntheticNetwork network(channels, world.rank(), world.size());
   const bool with_vessel = !channels.starts_with("network"), with_network = channels != "particles";
-  if (with_vessel) settings.particle_fields = names_of(vessel.fields());
-  if (with_network) settings.network_fields = names_of(network.fields());
+  if (with_vessel) settings.channels.push_back({"particles", names_of(vessel.fields())});
+  if (with_network) settings.channels.push_back({"network", names_of(network.fields())});
   if (const char* limit = std::getenv("DRIVER_TIME_LIMIT")) settings.time_limit_s = std::stod(limit);
   if (const char* live = std::getenv("DRIVER_LIVE")) settings.live = live;
   settings.before_abort = [](const std::string& reason) {
@@ -66,8 +66,10 @@ void run(rhexis::insitu::Settings settings, const std::string& channels, int fra
     network.advance(50L * frame, progress);
     const bool wanted = pipeline->wants(vessel.step(), vessel.time_s());
     if (wanted) {
-      pipeline->process(
-          {.particles = with_vessel ? &vessel : nullptr, .network = with_network ? &network : nullptr});
+      rhexis::insitu::Channels shown;
+      if (with_vessel) shown.push_back({"particles", &vessel});
+      if (with_network) shown.push_back({"network", &network});
+      pipeline->process(vessel.step(), vessel.time_s(), shown);
     }
     if (world.is_root()) {
       std::printf(R"({"step": %ld, "wanted": %d, "seconds": %.3f})"

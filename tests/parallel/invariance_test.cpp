@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "peridynamics/loads/venting.hpp"
 #include "peridynamics/monitors/opening.hpp"
 #include "peridynamics/statics/equilibrium.hpp"
 #include "support/vessels.hpp"

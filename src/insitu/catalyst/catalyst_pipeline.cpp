@@ -111,7 +111,7 @@ void CatalystPipeline::start_paraview() {
 }
 
 void CatalystPipeline::add_scripts(const Settings& settings) {
-  const std::vector<PerChannel<Wish>> wishes = inspect(settings);
+  const std::vector<std::vector<Wish>> wishes = inspect(settings);
   for (std::size_t i = 0; i < wishes.size(); ++i)
     scripts_.push_back(std::make_unique<CatalystScript>(settings.scripts[i], wishes[i]));
 }
@@ -129,15 +129,12 @@ bool CatalystPipeline::wants(long step, double time_s) {
   return !scripts_wanting(step, time_s).empty();
 }
 
-void CatalystPipeline::process(const Channels& channels) {
-  const bool of_particles = channels.particles != nullptr;
-  const long step = of_particles ? channels.particles->step() : channels.network->step();
-  const double time_s = of_particles ? channels.particles->time_s() : channels.network->time_s();
+void CatalystPipeline::process(long step, double time_s, const Channels& channels) {
   step_ = step;
   for (CatalystScript* script : scripts_wanting(step, time_s)) {
     agreement_.agree(failure_of([&] {
       std::filesystem::create_directories(image_directory_);
-      script->fill(channels);
+      script->fill(step, time_s, channels);
     }));
     if (agreement_.failure().empty()) guard_->call(script->path(), [&] { script->run(step, time_s); });
     script->clear();

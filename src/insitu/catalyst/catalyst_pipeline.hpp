@@ -26,7 +26,7 @@ class CatalystPipeline : public Pipeline {
 
   std::string description() const override { return description_; }
   bool wants(long step, double time_s) override;
-  void process(const Channels& channels) override;
+  void process(long step, double time_s, const Channels& channels) override;
   void finish() override;
 
  private:

@@ -5,32 +5,34 @@
 
 namespace rhexis::insitu {
 
-CatalystScript::CatalystScript(std::string path, PerChannel<Wish> wishes)
-    : path_(std::move(path)), wishes_(std::move(wishes)) {
+CatalystScript::CatalystScript(std::string path, std::vector<Wish> wishes) : path_(std::move(path)) {
+  for (Wish& wish : wishes) inputs_.push_back(std::make_unique<Input>(Input{.wish = std::move(wish)}));
   helper_->PrepareFromScript(path_);
 }
 
-void CatalystScript::fill(const Channels& channels) {
-  const auto fill_channel = [&](std::size_t channel, auto* source) {
-    filled_[channel] = nullptr;
-    if (source != nullptr && wishes_[channel].wanted)
-      filled_[channel] = grids_[channel].fill(*source, wishes_[channel].fields);
-  };
-  fill_channel(0, channels.particles);
-  fill_channel(1, channels.network);
+void CatalystScript::fill(long step, double time_s, const Channels& channels) {
+  for (const auto& input : inputs_) {
+    input->filled = nullptr;
+    for (const Channel& channel : channels) {
+      if (channel.name != input->wish.channel) continue;
+      input->filled = std::visit(
+          [&](auto* source) { return input->grid.fill(*source, input->wish.fields, step, time_s); },
+          channel.source);
+    }
+  }
 }
 
 void CatalystScript::clear() {
-  for (ChannelGrid& grid : grids_) grid.clear();
+  for (const auto& input : inputs_) input->grid.clear();
 }
 
 vtkSmartPointer<vtkCPDataDescription> CatalystScript::describe(long step, double time_s) const {
   auto description = vtkSmartPointer<vtkCPDataDescription>::New();
-  for (std::size_t channel = 0; channel < channel_count; ++channel) {
-    if (!known_[channel]) continue;
-    for (const char* name : channel_names[channel]) {
-      description->AddInput(name);
-      description->GetInputDescriptionByName(name)->SetGrid(filled_[channel]);
+  for (const auto& input : inputs_) {
+    if (!input->known) continue;
+    for (const std::string& name : script_names(input->wish.channel)) {
+      description->AddInput(name.c_str());
+      description->GetInputDescriptionByName(name.c_str())->SetGrid(input->filled);
     }
   }
   description->SetTimeData(time_s, static_cast<vtkIdType>(step));
@@ -49,8 +51,7 @@ void CatalystScript::run(long step, double time_s) {
 }
 
 bool CatalystScript::start(long step, double time_s) {
-  for (std::size_t channel = 0; channel < channel_count; ++channel)
-    known_[channel] = filled_[channel] != nullptr;
+  for (const auto& input : inputs_) input->known = input->filled != nullptr;
   auto description = describe(step, time_s);
   if (!helper_->Import(description) || !helper_->CatalystInitialize(description)) return false;
   started_ = true;

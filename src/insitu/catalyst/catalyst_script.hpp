@@ -7,7 +7,9 @@
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "insitu/catalyst/channel.hpp"
 #include "insitu/catalyst/channel_grid.hpp"
@@ -17,7 +19,7 @@ namespace rhexis::insitu {
 
 class CatalystScript {
  public:
-  CatalystScript(std::string path, PerChannel<Wish> wishes);
+  CatalystScript(std::string path, std::vector<Wish> wishes);
 
   const std::string& path() const { return path_; }
 
@@ -25,7 +27,7 @@ class CatalystScript {
   bool wants(long step, double time_s);
 
   /// Copies what the script asks for, for the next `run`; `clear` lets go of it.
-  void fill(const Channels& channels);
+  void fill(long step, double time_s, const Channels& channels);
   void clear();
 
   /// Starts the script if this is its first time and lets it make its extracts. Failures are left with the
@@ -39,10 +41,14 @@ class CatalystScript {
   vtkSmartPointer<vtkCPDataDescription> describe(long step, double time_s) const;
 
   std::string path_;
-  PerChannel<Wish> wishes_;
-  PerChannel<ChannelGrid> grids_;
-  PerChannel<vtkPolyData*> filled_{};  ///< null: the run has none of it, or the script does not ask for it
-  PerChannel<bool> known_{};           ///< what the script knows since its start
+  /// A channel that the script asks for.
+  struct Input {
+    Wish wish;
+    ChannelGrid grid = {};
+    vtkPolyData* filled = nullptr;  ///< null: the run has none of it
+    bool known = false;             ///< to the script, since its start
+  };
+  std::vector<std::unique_ptr<Input>> inputs_;
   vtkNew<vtkCPPythonScriptV2Helper> helper_;
   bool started_ = false;
 };

@@ -3,26 +3,21 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace rhexis::insitu {
 
-/// Channels are numbered in the order of the members of `Channels`: particles, network.
-inline constexpr std::size_t channel_count = 2;
-template <class Value>
-using PerChannel = std::array<Value, channel_count>;
-
 /// The names under which scripts find a channel: its own, and that of the file which the solver saves, so
 /// that a script exported from a ParaView session on this file runs unchanged.
-inline constexpr PerChannel<std::array<const char*, 2>> channel_names = {
-    {{"particles", "particles.xdmf"}, {"network", "network.xdmf"}}};
+inline std::array<std::string, 2> script_names(const std::string& channel) {
+  return {channel, channel + ".xdmf"};
+}
 
-/// What one script wants of one channel.
+/// What a script wants of a channel: the fields of these names.
 struct Wish {
-  bool wanted = false;              ///< it is given the channel
-  std::vector<std::string> fields;  ///< names
+  std::string channel;
+  std::vector<std::string> fields;
 };
 
 }  // namespace rhexis::insitu

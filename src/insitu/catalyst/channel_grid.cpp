@@ -49,27 +49,30 @@ void add_value(vtkFieldData* data, std::string_view name, double value) {
 
 }  // namespace
 
-vtkPolyData* ChannelGrid::fill(PointSource& source, const std::vector<std::string>& fields) {
+vtkPolyData* ChannelGrid::fill(PointSource& source, const std::vector<std::string>& fields, long step,
+                               double time_s) {
   vtkNew<vtkTypeInt32Array> points;
   points->SetNumberOfValues(static_cast<vtkIdType>(source.positions().count));
   std::iota(points->GetPointer(0), points->GetPointer(0) + points->GetNumberOfValues(), 0);
   grid_->SetVerts(cells_of(points, 1));
-  fill_values(source, fields);
+  fill_values(source, fields, step, time_s);
   return grid_;
 }
 
-vtkPolyData* ChannelGrid::fill(LineSource& source, const std::vector<std::string>& fields) {
+vtkPolyData* ChannelGrid::fill(LineSource& source, const std::vector<std::string>& fields, long step,
+                               double time_s) {
   const std::span<const std::int64_t> ends = source.connectivity();
   vtkNew<vtkTypeInt64Array> points;
   points->SetNumberOfValues(static_cast<vtkIdType>(ends.size()));
   std::copy(ends.begin(), ends.end(), points->GetPointer(0));
   grid_->SetLines(cells_of(points, 2));
-  fill_values(source, fields);
+  fill_values(source, fields, step, time_s);
   return grid_;
 }
 
 template <class Source>
-void ChannelGrid::fill_values(Source& source, const std::vector<std::string>& fields) {
+void ChannelGrid::fill_values(Source& source, const std::vector<std::string>& fields, long step,
+                              double time_s) {
   vtkNew<vtkPoints> points;
   points->SetData(copy(source.positions()));
   grid_->SetPoints(points);
@@ -83,8 +86,8 @@ void ChannelGrid::fill_values(Source& source, const std::vector<std::string>& fi
     if (!of_points) data = grid_->GetCellData();
     data->AddArray(copy(view));
   }
-  add_value(grid_->GetFieldData(), "time", source.time_s());
-  add_value(grid_->GetFieldData(), "step", static_cast<double>(source.step()));
+  add_value(grid_->GetFieldData(), "time", time_s);
+  add_value(grid_->GetFieldData(), "step", static_cast<double>(step));
   for (const Annotation& note : source.annotations()) add_value(grid_->GetFieldData(), note.name, note.value);
 }
 

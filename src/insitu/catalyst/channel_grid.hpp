@@ -18,15 +18,15 @@ class ChannelGrid {
  public:
   /// Copies the source's positions and the fields named; no others are asked of it. Annotations, time and
   /// step become field data of one value each: `time` (s), `step` and the annotations' own names (SI units).
-  vtkPolyData* fill(PointSource& source, const std::vector<std::string>& fields);
-  vtkPolyData* fill(LineSource& source, const std::vector<std::string>& fields);
+  vtkPolyData* fill(PointSource& source, const std::vector<std::string>& fields, long step, double time_s);
+  vtkPolyData* fill(LineSource& source, const std::vector<std::string>& fields, long step, double time_s);
 
   /// Lets go of the values.
   void clear();
 
  private:
   template <class Source>
-  void fill_values(Source& source, const std::vector<std::string>& fields);
+  void fill_values(Source& source, const std::vector<std::string>& fields, long step, double time_s);
 
   vtkNew<vtkPolyData> grid_;
 };

@@ -9,9 +9,9 @@
 
 namespace rhexis::insitu {
 
-/// What each script wants of each channel, in the order of `settings.scripts`. Throws RunError, naming script
+/// What each script wants, in the order of `settings.scripts`. Throws RunError, naming script
 /// and line, for a script that cannot be read or parsed, or that asks for what the run does not have. Local
 /// to the rank; ParaView need not have been started.
-std::vector<PerChannel<Wish>> inspect(const Settings& settings);
+std::vector<std::vector<Wish>> inspect(const Settings& settings);
 
 }  // namespace rhexis::insitu

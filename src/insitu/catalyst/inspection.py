@@ -264,11 +264,11 @@ def refuse_same_names(images):
 
 
 def settle_channel(script, channel, wish, present):
-    """(wanted, fields) of a channel; `present`: the names of its fields, None where the run does not have it."""
-    if present[channel] is None:
+    """The fields that a script gets of a channel, None where it does not want it; `present`: the names of the run's fields, by channel."""
+    if channel not in present:
         if not wish.line:
-            return False, []
-        others = plural([name for name in CHANNELS if present[name] is not None])
+            return None
+        others = plural(list(present))
         raise ScriptError(script.path, None, f"asks for the channel '{channel}', which this run does not have; "
                                              f"there are: {others}")  # fmt: skip
     known = present[channel]
@@ -276,18 +276,21 @@ def settle_channel(script, channel, wish, present):
         if field not in known:
             raise ScriptError(script.path, line, f"asks for the field '{field}'; "
                                                  f"there are: {plural(known)}{suggestion(field, known)}")  # fmt: skip
-    return wish.wanted, known if wish.fields is None else [field for field, _ in wish.fields]
+    if not wish.wanted:
+        return None
+    return known if wish.fields is None else [field for field, _ in wish.fields]
 
 
-def inspect(paths, *fields):
-    """Of each script a list: for each channel (wanted, names of fields). `fields`: of each channel, None: no such channel."""
-    present = dict(zip(CHANNELS, fields))
+def inspect(paths, present):
+    """Of each script a list of what it wants: (channel, names of fields). `present`: the names of the run's fields, by channel."""
     saved_files.clear()
     for path in paths:
         if paths.count(path) > 1:
             raise ScriptError(path, None, "is named twice")
     scripts = [Script(path) for path in paths]
     refuse_same_names([image for script in scripts for image in script.images.values()])
-    return [
-        [settle_channel(script, channel, wish, present) for channel, wish in script.wishes.items()] for script in scripts
-    ]
+    wanted = []
+    for script in scripts:
+        fields = {channel: settle_channel(script, channel, wish, present) for channel, wish in script.wishes.items()}
+        wanted.append([(channel, names) for channel, names in fields.items() if names is not None])
+    return wanted

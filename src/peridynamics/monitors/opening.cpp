@@ -226,13 +226,4 @@ double LumenGauge::largest_stretch() const {
   return *std::max_element(stretch.begin(), stretch.end());
 }
 
-double venting_factor(double open_area, double supply_area) {
-  const double ratio = open_area / supply_area;
-  return 1 / (1 + ratio * ratio);
-}
-
-double orifice_flow(double discharge_coefficient, double area, double pressure, double density) {
-  return discharge_coefficient * area * std::sqrt(2 * std::max(pressure, 0.0) / density);
-}
-
 }  // namespace rhexis::peridynamics

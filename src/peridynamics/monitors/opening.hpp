@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// How far the wall has opened, measured on the particles, and what that does to the pressure.
+/// How far a tube's wall has opened and how wide its lumen is, measured on its columns of particles.
 #pragma once
 
 #include <cstdint>
@@ -77,13 +77,5 @@ class LumenGauge {
   parallel::Communicator comm_;
   std::vector<std::int64_t> innermost_;  ///< columns, ascending
 };
-
-/// Share of the scheduled pressure left in a vessel that leaks: blood enters through `supply_area` and leaves
-/// through `open_area`, both by the orifice law Q = Cd A sqrt(2 dP / rho); equal flows give
-/// P / P_0 = 1 / (1 + (A_open / A_supply)^2).
-double venting_factor(double open_area, double supply_area);
-
-/// Leak by the orifice law, m3/s: Cd A sqrt(2 P / rho), outside pressure zero.
-double orifice_flow(double discharge_coefficient, double area, double pressure, double density);
 
 }  // namespace rhexis::peridynamics

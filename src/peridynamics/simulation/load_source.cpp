@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "peridynamics/monitors/opening.hpp"
+#include "peridynamics/loads/venting.hpp"
 #include "peridynamics/simulation/vessel_simulation.hpp"
 
 namespace rhexis::peridynamics {
@@ -23,7 +23,7 @@ double LoadSource::leak(const VesselSimulation& simulation) const {
 void VentedLoad::before_step(VesselSimulation& simulation) {
   if (!simulation.rupture().onset || simulation.step_number() % venting_interval != 0) return;
   LoadState& load = simulation.load();
-  load.open_area = simulation.opening().area();
+  load.open_area = simulation.gauge().open_area();
   load.next_share = venting_factor(load.open_area, supply_area_);
   load.least_share = std::min(load.least_share, load.next_share);
 }

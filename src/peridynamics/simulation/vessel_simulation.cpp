@@ -14,14 +14,12 @@ enum Flag : std::uint64_t { broken = 1ull << 61, ruptured = 1ull << 62, unstable
 
 VesselSimulation::VesselSimulation(const WallModel& wall, parallel::Communicator comm)
     : p_(wall.parameters),
-      lattice_(wall.lattice()),
       time_(wall.time),
       comm_(comm),
       particles_(wall.particles()),
       body_(make_body(wall.setup, comm)),
       particle_source_(*body_),
-      opening_(lattice_, *body_, comm, wall.setup.ends, wall.setup.thin_spots),
-      lumen_(lattice_, *body_, comm) {}
+      gauge_(make_gauge(wall.setup, *body_, comm)) {}
 
 double VesselSimulation::scheduled_pressure_at(long step) const {
   return scheduled_pressure(p_, time_at(step));
@@ -64,7 +62,7 @@ const Totals& VesselSimulation::totals() {
 
 double VesselSimulation::open_area() {
   // Beside a hole particles have lost about half of their bonds.
-  if (!opening_measured_) load_.open_area = totals().max_damage >= rupture_damage ? opening_.area() : 0;
+  if (!opening_measured_) load_.open_area = totals().max_damage >= rupture_damage ? gauge_->open_area() : 0;
   opening_measured_ = true;
   return load_.open_area;
 }
@@ -76,7 +74,7 @@ VesselSimulation::Report VesselSimulation::record(bool broken, bool damaged) {
   if (!damaged || rupture_.onset) return report;
   rupture_.onset = time();
   rupture_.pressure = pressure();
-  rupture_.blood_pressure = *rupture_.pressure / lumen_.largest_stretch();
+  rupture_.blood_pressure = *rupture_.pressure / gauge_->largest_lumen_stretch();
   rupture_.max_displacement = body_->max_displacement();
   report.ruptures = true;
   return report;

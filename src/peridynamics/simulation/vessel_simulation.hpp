@@ -13,8 +13,8 @@
 
 #include "parallel/communicator.hpp"
 #include "peridynamics/engine/body.hpp"
-#include "peridynamics/monitors/opening.hpp"
 #include "peridynamics/monitors/particle_source.hpp"
+#include "peridynamics/monitors/wall_gauge.hpp"
 #include "peridynamics/simulation/load_source.hpp"
 #include "peridynamics/wall_model.hpp"
 
@@ -43,12 +43,10 @@ class VesselSimulation {
   VesselSimulation(const WallModel& wall, parallel::Communicator comm);
 
   const Parameters& parameters() const { return p_; }
-  const Lattice& lattice() const { return lattice_; }
   std::int64_t particles() const { return particles_; }
   Body& body() { return *body_; }
   const Body& body() const { return *body_; }
-  const OpeningGauge& opening() const { return opening_; }
-  const LumenGauge& lumen() const { return lumen_; }
+  const WallGauge& gauge() const { return *gauge_; }
 
   const TimeSteps& time_steps() const { return time_; }
   long step_number() const { return step_; }
@@ -91,14 +89,12 @@ class VesselSimulation {
   Report record(bool broken, bool damaged);
 
   Parameters p_;
-  Lattice lattice_;
   TimeSteps time_;
   parallel::Communicator comm_;
   std::int64_t particles_ = 0;
   std::unique_ptr<Body> body_;
   ParticleSource particle_source_;
-  OpeningGauge opening_;
-  LumenGauge lumen_;
+  std::unique_ptr<WallGauge> gauge_;
   long step_ = 0;
   RuptureEvents rupture_;
   LoadState load_;

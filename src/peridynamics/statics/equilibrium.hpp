@@ -21,9 +21,9 @@ struct Equilibrium {
 };
 
 /// Memory that finding it takes on all ranks beside the run's own body: another one, and displacement,
-/// velocity and force.
+/// velocity, force and volumes.
 inline double equilibrium_bytes(double body_bytes, double particles) {
-  return body_bytes + 9 * particles * sizeof(double);
+  return body_bytes + 10 * particles * sizeof(double);
 }
 
 /// Finds the equilibrium under `pressure` (Pa) to a residual of at most `tolerance`. Throws RunError where

@@ -64,8 +64,8 @@ void resolve(CoupledScene& s, const Reading& reading) {
     s.network.screening.top = std::max<std::int64_t>(1, s.network.screening.top);
   if (s.is_cascade()) warn_of_an_unfinished_ramp(s, s.vessel);
   warn_of_an_old_paraview(s, s.output.format);
-  s.pictures.particle_fields = names_of(peridynamics::ParticleSource::all_fields());
-  s.pictures.network_fields = names_of(hemodynamics::VesselLines().fields());
+  s.pictures.channels = {{"particles", names_of(peridynamics::ParticleSource::all_fields())},
+                         {"network", names_of(hemodynamics::VesselLines().fields())}};
   find_scripts(s, s.pictures, reading);
 }
 

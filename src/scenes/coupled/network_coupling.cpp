@@ -109,7 +109,7 @@ void NetworkCoupling::restore(output::CheckpointReader& file, double time_s,
   coupled_->restore(file, flow().inflow, is_cascade, time_s, directory);
 }
 
-LineSource& NetworkCoupling::lines() {
+LineSource& NetworkCoupling::lines(long step, double time_s) {
   std::vector<Annotation> notes{
       {"vessels", "1", static_cast<double>(flow().vessels)},
       {"shown", "1", static_cast<double>(network_.solution.display.shown)},
@@ -123,7 +123,7 @@ LineSource& NetworkCoupling::lines() {
       notes.push_back({names[k], "m", (k < 3 ? *chosen_.start : *chosen_.end)[k % 3]});
   }
   hemodynamics::VesselLines& lines = network_.solution.display.lines;
-  lines.annotate(std::move(notes));
+  lines.moment(step, time_s, std::move(notes));
   return lines;
 }
 

@@ -47,8 +47,8 @@ class NetworkCoupling {
   void save(output::CheckpointWriter& file) const;
   void restore(output::CheckpointReader& file, double time_s, const std::filesystem::path& directory);
 
-  /// The network as it is shown: with the vessel's place, pressure and leak.
-  LineSource& lines();
+  /// The network as it is shown at a moment: with the vessel's place, pressure and leak.
+  LineSource& lines(long step, double time_s);
   nlohmann::ordered_json network_record() const;
   nlohmann::ordered_json results() const;
   void print_header(runtime::Console& console, double time_step) const;

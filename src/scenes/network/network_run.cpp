@@ -70,10 +70,10 @@ class NetworkRun {
 
   void show() {
     if (network_.solution.display.shown > 0) {
-      const insitu::Channels channels{.particles = nullptr, .network = &network_.solution.display.lines};
+      const insitu::Channels channels{{"network", &network_.solution.display.lines}};
       if (session_.options().on_output) session_.options().on_output(channels);
       const Stopwatch watch(session_.spent().insitu);
-      if (session_.pictures()->pipeline) session_.pictures()->process(channels);
+      if (session_.pictures()->pipeline) session_.pictures()->process(0, 0, channels);
     }
     session_.finish_pictures();
   }

@@ -15,7 +15,7 @@ ParameterList declare(NetworkScene& s) {
 void resolve(NetworkScene& s, const Reading& reading) {
   resolve_network(s, s.network, reading.comm);
   warn_of_an_old_paraview(s, s.output.format);
-  s.pictures.network_fields = names_of(hemodynamics::VesselLines().fields());
+  s.pictures.channels = {{"network", names_of(hemodynamics::VesselLines().fields())}};
   find_scripts(s, s.pictures, reading);
 }
 

@@ -33,9 +33,8 @@ void VesselRun::print_header() {
   session_.console().item(
       "particles",
       fmt::format("{} ({} columns x {} rows, {}), spacing {}, horizon {}", grouped(*results_.particles),
-                  simulation_->lattice().section.size(), simulation_->lattice().rows,
-                  name_of(v.cross_section), quantity(simulation_->lattice().spacing, "m"),
-                  quantity(simulation_->lattice().horizon, "m")));
+                  c_.wall->lattice().section.size(), c_.wall->lattice().rows, name_of(v.cross_section),
+                  quantity(c_.wall->lattice().spacing, "m"), quantity(c_.wall->lattice().horizon, "m")));
   const peridynamics::Scatter& scatter = v.scatter;
   if (!scatter.none()) {
     session_.console().item(
@@ -46,7 +45,7 @@ void VesselRun::print_header() {
   if (!v.spots.list.empty()) {
     session_.console().item("spots",
                             fmt::format("{}, which leave out {} particles", v.spots.list.size(),
-                                        grouped(simulation_->lattice().particles() - *results_.particles)));
+                                        grouped(c_.wall->lattice().particles() - *results_.particles)));
   }
   session_.console().item("bonds",
                           fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),

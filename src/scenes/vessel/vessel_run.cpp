@@ -231,14 +231,13 @@ void VesselRun::time_loop() {
   peridynamics::EnergyBalance balance(*simulation_, steps);
   peridynamics::CrushedBonds crushed(*simulation_, steps, given_warnings_.crushed_bonds, warn);
   studies::HistoryObserver history(*simulation_, *load_, std::move(*history_), steps);
-  const auto channels_with = [&](PointSource& particles) -> insitu::Channels {
-    return {.particles = &particles, .network = coupling_ != nullptr ? &coupling_->lines() : nullptr};
+  const auto channels = [&] {
+    insitu::Channels shown{{"particles", &simulation_->particle_source()}};
+    if (coupling_ != nullptr)
+      shown.push_back({"network", &coupling_->lines(simulation_->step_number(), simulation_->time())});
+    return shown;
   };
-  CallAtSteps caller(steps, true, [&](const Moment&) {
-    session_.options().on_output(channels_with(simulation_->particle_source()));
-  });
-  runtime::LaterSource particles(simulation_->particle_source(), *session_.pictures());
-  const auto channels = [&] { return channels_with(particles); };
+  CallAtSteps caller(steps, true, [&](const Moment&) { session_.options().on_output(channels()); });
   runtime::PictureObserver pictures(
       *session_.pictures(),
       {.every_steps = c_.pictures.insitu.every_steps, .output_steps = steps, .channels = channels});

@@ -61,7 +61,7 @@ void resolve(VesselScene& s, const Reading& reading) {
   if (s.output.fields.empty()) warn_of_no_effect(s, "output.format", "without output.fields");
   warn_of_a_load_beyond_all(s);
   if (!s.output.fields.empty()) warn_of_an_old_paraview(s, s.output.format);
-  s.pictures.particle_fields = names_of(peridynamics::ParticleSource::all_fields());
+  s.pictures.channels = {{"particles", names_of(peridynamics::ParticleSource::all_fields())}};
   find_scripts(s, s.pictures, reading);
 }
 

@@ -81,9 +81,10 @@ void write_lines(const NetworkFilesPlan& files, hemodynamics::NetworkSolution& s
                  const output::ResultsFolder& folder, parallel::Communicator comm) {
   if (comm.all_reduce(static_cast<std::int64_t>(solution.display.lines.count()), parallel::Reduce::sum) == 0)
     return;
-  solution.display.lines.annotate({{"vessels", "1", static_cast<double>(solution.flow.vessels)},
-                                   {"shown", "1", static_cast<double>(solution.display.shown)},
-                                   {"inflow", "m3/s", solution.flow.inflow}});
+  solution.display.lines.moment(0, 0,
+                                {{"vessels", "1", static_cast<double>(solution.flow.vessels)},
+                                 {"shown", "1", static_cast<double>(solution.display.shown)},
+                                 {"inflow", "m3/s", solution.flow.inflow}});
   const auto fields = solution.display.lines.fields();
   output::LineSeriesPlan plan;
   plan.directory = folder.path();

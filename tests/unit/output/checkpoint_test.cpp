@@ -110,6 +110,20 @@ void expect_checkpoint(const std::filesystem::path& path, const Communicator& ra
   EXPECT_FALSE(reader.holds("never"));
 }
 
+TEST(Checkpoint, HoldsRangesOfAnyLength) {
+  const TemporaryDirectory directory;
+  const IdRanges written = test::dealt_out(150, world), read = test::divided(10, 15, world, 1);
+  {
+    CheckpointWriter writer(directory / "c.h5", "1.2.3", world);
+    writer.write("x", written, numbers(written));
+    writer.close();
+  }
+  CheckpointReader reader(directory / "c.h5", world);
+  std::vector<double> values(static_cast<std::size_t>(read.local_count()));
+  reader.read("x", read, values);
+  EXPECT_EQ(values, numbers(read));
+}
+
 TEST(Checkpoint, IsReadOnOtherNumbersOfRanks) {
   const TemporaryDirectory directory;
   const auto path = directory / "state.h5";

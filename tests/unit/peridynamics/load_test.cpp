@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "peridynamics/loads/pressure_layer.hpp"
 #include "peridynamics/loads/schedule.hpp"
+#include "peridynamics/loads/venting.hpp"
 #include "peridynamics/monitors/opening.hpp"
 #include "support/vessels.hpp"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What there is of a wall, by formulas, against what is made of it.
-#include "peridynamics/wall_memory.hpp"
-
 #include <gtest/gtest.h>
 
 #include <set>
 
+#include "peridynamics/wall_memory.hpp"
 #include "support/vessels.hpp"
 
 namespace rhexis::peridynamics {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "peridynamics/loads/venting.hpp"
 #include "support/weak_vessel.hpp"
 
 namespace rhexis::peridynamics {

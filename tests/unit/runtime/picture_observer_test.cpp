@@ -16,7 +16,7 @@ struct Willing final : insitu::Pipeline {
     asked.push_back(step);
     return true;
   }
-  void process(const insitu::Channels&) override {}
+  void process(long, double, const insitu::Channels&) override {}
   void finish() override {}
   std::vector<long>& asked;
 };
