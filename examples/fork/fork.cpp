@@ -7,14 +7,14 @@
 #include "hemodynamics/steady/graph/graph_flow.hpp"
 
 int main() {
-  using rhexis::network::Condition;
+  using rhexis::network::BoundaryCondition;
   rhexis::network::Graph fork{.junctions = 4, .from = {0, 1, 1}, .to = {1, 2, 3}};
   fork.radius = {2e-3, 1.6e-3, 1.2e-3}, fork.length = {40e-3, 30e-3, 30e-3};  // m
   std::vector<double> conductance;
   for (std::size_t v = 0; v < fork.vessels(); ++v)
     conductance.push_back(
         1 / rhexis::hemodynamics::poiseuille_resistance(fork.radius[v], fork.length[v], 3.5e-3));
-  const std::vector<Condition> ends = {
+  const std::vector<BoundaryCondition> ends = {
       {.junction = 0, .value = 12e3}, {.junction = 2}, {.junction = 3}};  // Pa
   const auto flow = rhexis::hemodynamics::solve_flow(fork, conductance, ends);
   for (std::size_t v = 0; v < fork.vessels(); ++v)

@@ -56,7 +56,7 @@ std::string read_text(const std::filesystem::path& file);
 
 /// Memory that parsing a text of so many characters takes, bytes; measured on a table of a million points.
 inline double parsing_bytes(std::size_t characters) {
-  return 32.0 * static_cast<double>(characters);
+  return 20.0 * static_cast<double>(characters);
 }
 
 /// The document of a file's text; each override is a "key=value", and the last one of a key holds. The value
