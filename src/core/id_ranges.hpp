@@ -33,8 +33,6 @@ struct IdRanges {
     else
       ranges.push_back(range);
   }
-
-  bool operator==(const IdRanges&) const = default;
 };
 
 /// A rank's part of a table with a row of `width` values for each number: of the rows `rows` the columns

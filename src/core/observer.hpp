@@ -15,7 +15,7 @@ struct Moment {
 
 /// Subscribes to a time loop, which calls it at every moment in the order of the functions below: each
 /// function of all observers, in the order in which they subscribed, before the next function. All calls are
-/// collective, and what they throw ends the run. An observer knows what it observes since it was made.
+/// collective, and what they throw ends the run. What an observer looks at, it is given when it is made.
 class Observer {
  public:
   virtual ~Observer() = default;
