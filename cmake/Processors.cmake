@@ -28,6 +28,9 @@ function(rhexis_for_processors TARGET)
     if(definitions)
       target_compile_definitions(${variant} PRIVATE ${definitions})
     endif()
+    if(level STREQUAL x86-64-v4)
+      target_compile_options(${variant} PRIVATE -mprefer-vector-width=512)  # g++ takes halves unless told of one processor
+    endif()
     set(folder ${CMAKE_INSTALL_LIBDIR}/glibc-hwcaps/${level})
     set_target_properties(${variant} PROPERTIES RHEXIS_LEVEL ${level} OUTPUT_NAME ${TARGET} INSTALL_RPATH $ORIGIN/../..
       LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${folder} VERSION ${PROJECT_VERSION} SOVERSION ${RHEXIS_SOVERSION})
