@@ -23,7 +23,7 @@ namespace {
 
 constexpr const char* format_name = "format";
 constexpr std::string_view format_prefix = "rhexis checkpoint ";
-constexpr const char* format_text = "rhexis checkpoint 5";
+constexpr const char* format_text = "rhexis checkpoint 6";
 constexpr const char* version_name = "program_version";
 constexpr const char* checksum_name = "checksum";  ///< of all other attributes
 
@@ -47,11 +47,19 @@ std::uint64_t checksum_of(const CheckpointNumbers& numbers) {
   return checksum(text);
 }
 
-/// All of them, or none.
-Slab slab_of_bytes(std::size_t size, bool all) {
-  IdRanges bytes{.global_count = static_cast<std::int64_t>(size)};
-  if (all) bytes.add({0, bytes.global_count});
-  return slab_of(bytes, 1);
+/// All elements of a list, or none.
+IdRanges elements_of(std::size_t size, bool all) {
+  IdRanges elements{.global_count = static_cast<std::int64_t>(size)};
+  if (all) elements.add({0, elements.global_count});
+  return elements;
+}
+
+Slab slab_of_list(std::size_t size, bool all) {
+  return slab_of(elements_of(size, all), 1);
+}
+
+std::uint64_t checksum_of_list(const std::string& name, std::span<const double> list) {
+  return checksum(TablePart{.rows = elements_of(list.size(), true)}, list, checksum(name));
 }
 
 std::uint64_t over_ranks(const parallel::Communicator& communicator, std::uint64_t sum) {
@@ -102,9 +110,15 @@ void CheckpointWriter::write(const std::string& name, const TablePart& part,
 
 void CheckpointWriter::write(const std::string& name, const std::string& text) {
   // With its terminating zero: HDF5 has no place for nothing.
-  write_array(name, H5T_STD_U8LE, H5T_NATIVE_UINT8, slab_of_bytes(text.size() + 1, communicator_.is_root()),
+  write_array(name, H5T_STD_U8LE, H5T_NATIVE_UINT8, slab_of_list(text.size() + 1, communicator_.is_root()),
               text.c_str());
   note_checksum(name, communicator_.is_root() ? checksum(text, checksum(name)) : 0);
+}
+
+void CheckpointWriter::write(const std::string& name, std::span<const double> list) {
+  const bool is_root = communicator_.is_root();
+  write_array(name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, slab_of_list(list.size(), is_root), list.data());
+  note_checksum(name, is_root ? checksum_of_list(name, list) : 0);
 }
 
 void CheckpointWriter::note_checksum(const std::string& name, std::uint64_t of_this_rank) {
@@ -236,11 +250,27 @@ void CheckpointReader::read(const std::string& name, std::string& text) {
       refuse(fmt::format("'{}' is not a text that fits into the file", name));
     text.resize(stored[0]);
   });
-  read_array(name, H5T_NATIVE_UINT8, slab_of_bytes(text.size(), true), text.data());
+  read_array(name, H5T_NATIVE_UINT8, slab_of_list(text.size(), true), text.data());
   parallel::together<InputError>(communicator_, [&] {
     text.pop_back();
     compare_checksum(name, checksum(text, checksum(name)));
   });
+}
+
+void CheckpointReader::read(const std::string& name, std::span<double> list, double least, double most) {
+  read_array(name, H5T_NATIVE_DOUBLE, slab_of_list(list.size(), true), list.data());
+  parallel::together<InputError>(communicator_, [&] {
+    compare_checksum(name, checksum_of_list(name, list));
+    for (const double value : list)
+      if (!std::isnan(value)) require_range(name, value, least, most);
+  });
+}
+
+template <class Value>
+void CheckpointReader::require_range(const std::string& name, Value value, double least, double most) const {
+  const auto real = static_cast<double>(value);
+  if (!std::isfinite(real) || real < least || real > most)
+    refuse(fmt::format("'{}' is {}, which makes no sense ({:.6g} to {:.6g} does)", name, value, least, most));
 }
 
 template <class Number>
@@ -249,10 +279,7 @@ Number CheckpointReader::number(const std::string& name, double least, double mo
   if (found == numbers_.end()) refuse(fmt::format("it does not hold '{}'", name));
   const auto* value = std::get_if<Number>(&found->second);
   if (value == nullptr) refuse(fmt::format("'{}' is a number of another kind", name));
-  const auto real = static_cast<double>(*value);
-  if (!std::isfinite(real) || real < least || real > most)
-    refuse(
-        fmt::format("'{}' is {}, which makes no sense ({:.6g} to {:.6g} does)", name, *value, least, most));
+  require_range(name, *value, least, most);
   return *value;
 }
 

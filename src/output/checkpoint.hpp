@@ -45,6 +45,8 @@ class CheckpointWriter {
   void write(const std::string& name, const IdRanges& ids, std::span<const double> values);
   void write(const std::string& name, const TablePart& part, std::span<const std::uint16_t> values);
   void write(const std::string& name, const std::string& text);  ///< the same on every rank
+  /// A list of at least one number, the root's; not a number stands for one that is missing.
+  void write(const std::string& name, std::span<const double> list);
   /// The root's value; what is absent is not written.
   void write(const std::string& name, std::int64_t value) { numbers_[name] = value; }
   void write(const std::string& name, double value) { numbers_[name] = value; }
@@ -85,6 +87,8 @@ class CheckpointReader {
   void read(const std::string& name, const IdRanges& ids, std::span<double> values);
   void read(const std::string& name, const TablePart& part, std::span<std::uint16_t> values);
   void read(const std::string& name, std::string& text);
+  /// A list of as many numbers, each missing (not a number) or from `least` to `most`.
+  void read(const std::string& name, std::span<double> list, double least, double most);
   /// A number from `least` to `most`, finite.
   void read(const std::string& name, std::int64_t& value, double least = -largest, double most = largest);
   void read(const std::string& name, double& value, double least = -largest, double most = largest);
@@ -99,6 +103,8 @@ class CheckpointReader {
   void read_numbers();
   void require_this_format() const;
   void compare_checksum(const std::string& name, std::uint64_t of_all_ranks) const;
+  template <class Value>
+  void require_range(const std::string& name, Value value, double least, double most) const;
   template <class Number>
   Number number(const std::string& name, double least, double most) const;
   void read_array(const std::string& name, std::int64_t memory_type, const Slab& slab, void* values) const;

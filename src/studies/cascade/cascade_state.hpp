@@ -49,8 +49,8 @@ nlohmann::ordered_json to_json(const CascadeEvent& event, std::size_t number);
 /// cascade.csv: a row for each event.
 std::string cascade_table(const std::vector<CascadeEvent>& events);
 
-/// The name by which a checkpoint holds the state.
-inline constexpr const char* cascade_name = "cascade";
+/// The name by which a checkpoint holds the number of events, and so tells that it is of a cascade.
+inline constexpr const char* cascade_name = "cascade_events";
 
 /// The root's state. Collective.
 void save_cascade(const CascadeState& state, parallel::Communicator comm, output::CheckpointWriter& file);

@@ -3,38 +3,23 @@
 // what is said of keys that a scene leaves without effect.
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "app/configuration.hpp"
 #include "app/scene_keys.hpp"
 #include "input/catalogue.hpp"
 #include "input/document.hpp"
 #include "input/values.hpp"
-#include "unit/output/temporary_directory.hpp"
+#include "unit/app/scene_texts.hpp"
 
 namespace rhexis::app {
 namespace {
 
-Configuration read_file(const std::string& file, const std::vector<std::string>& overrides) {
-  scenes::Reading reading{.comm = parallel::Communicator::world()};
-  return read_configuration(file, overrides, reading);
-}
-
-Configuration read_text(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  const test::TemporaryDirectory folder;
-  const std::string file = (folder / "scene.toml").string();
-  if (parallel::Communicator::world().is_root()) std::ofstream(file) << text;
-  return read_file(file, overrides);
-}
-
 /// The warnings of an input of this text.
 std::vector<std::string> warnings_of(const std::string& text,
                                      const std::vector<std::string>& overrides = {}) {
-  return input_of(read_text(text, overrides)).warnings;
+  return input_of(test::read_scene(text, overrides)).warnings;
 }
 
 std::vector<std::string> warnings_of_input(const std::string& name, const std::string& override) {
-  return input_of(read_file(RHEXIS_SOURCE_DIR "/inputs/" + name, {override})).warnings;
+  return input_of(test::read_file("inputs/" + name, {override})).warnings;
 }
 
 /// One warning, of `key` and with `why`.
@@ -45,30 +30,6 @@ void expect_no_effect(const std::vector<std::string>& warnings, const std::strin
   EXPECT_NE(warnings.front().find("has no effect"), std::string::npos) << warnings.front();
   EXPECT_NE(warnings.front().find(why), std::string::npos) << warnings.front();
 }
-
-const std::string vessel = R"(
-[vessel]
-inner_radius = "1.5 mm"
-outer_radius = "2 mm"
-length = "2 mm"
-[discretisation]
-spacing = "100 um"
-[load]
-pressure = "100 kPa"
-[time]
-end = "50 us"
-)";
-
-const std::string tree = R"(
-[scene]
-model = "network"
-[tree]
-generations = 8
-root_radius = "2 mm"
-[flow]
-inlet_pressure = "100 mmHg"
-outlet_pressure = "5 mmHg"
-)";
 
 TEST(Keys, DependOnOthersThatThereAreAndValuesThatTheseTake) {
   const AllKeys keys;
@@ -98,40 +59,41 @@ TEST(Keys, TakeTheirOwnDefaultsAsTheyAreShown) {
 }
 
 TEST(Keys, ThatHaveAnEffectAreNotWarnedOf) {
-  EXPECT_EQ(warnings_of(vessel), std::vector<std::string>{});
-  EXPECT_EQ(warnings_of(tree), std::vector<std::string>{});
-  EXPECT_EQ(warnings_of(vessel, {"scatter.stiffness=0.1", "scatter.seed=3", "scatter.law=weibull",
-                                 "scatter.correlation_length=0.3 mm", "output.precision=double"}),
+  EXPECT_EQ(warnings_of(test::vessel), std::vector<std::string>{});
+  EXPECT_EQ(warnings_of(test::tree), std::vector<std::string>{});
+  EXPECT_EQ(warnings_of(test::vessel, {"scatter.stiffness=0.1", "scatter.seed=3", "scatter.law=weibull",
+                                       "scatter.correlation_length=0.3 mm", "output.precision=double"}),
             std::vector<std::string>{});
-  EXPECT_EQ(warnings_of(tree, {"network.tier=explicit", "network.solver=amg", "network.imbalance=1e-9",
-                               "network.max_iterations=50"}),
+  EXPECT_EQ(warnings_of(test::tree, {"network.tier=explicit", "network.solver=amg", "network.imbalance=1e-9",
+                                     "network.max_iterations=50"}),
             std::vector<std::string>{});
-  EXPECT_EQ(warnings_of(tree, {"network.shown_subtree=artery.01", "network.statistics=false"}),
+  EXPECT_EQ(warnings_of(test::tree, {"network.shown_subtree=artery.01", "network.statistics=false"}),
             std::vector<std::string>{});
-  EXPECT_EQ(warnings_of(tree, {"weakness.subtrees=[\"artery.01\"]", "weakness.strength=0.3",
+  EXPECT_EQ(
+      warnings_of(test::tree, {"weakness.subtrees=[\"artery.01\"]", "weakness.strength=0.3",
                                "weakness.thickness=0.8", "weakness.thickness_spread=0.1", "weakness.seed=2"}),
-            std::vector<std::string>{});
+      std::vector<std::string>{});
 }
 
 TEST(Keys, WithoutEffectAreWarnedOf) {
   for (const char* key : {"scatter.seed=3", "scatter.law=weibull", "scatter.correlation_length=0.3 mm"})
-    expect_no_effect(warnings_of(vessel, {key}), key,
+    expect_no_effect(warnings_of(test::vessel, {key}), key,
                      "without scatter.critical_stretch or scatter.stiffness");
-  expect_no_effect(warnings_of(vessel, {"output.precision=double", "output.fields=[]"}), "output.precision",
-                   "without output.fields");
+  expect_no_effect(warnings_of(test::vessel, {"output.precision=double", "output.fields=[]"}),
+                   "output.precision", "without output.fields");
   for (const char* key : {"network.solver=amg", "network.imbalance=1e-9", "network.max_iterations=50"})
     expect_no_effect(
-        warnings_of(tree, {key}), key,
+        warnings_of(test::tree, {key}), key,
         "where network.source = \"tree\" and network.tier = \"auto\", only with network.source = "
         "\"file\", or network.tier = \"explicit\" or \"distributed\"");
   for (const char* key : {"network.statistics=false", "network.shown_subtree=artery.01"})
-    expect_no_effect(warnings_of(tree, {key, "network.tier=explicit"}), key, "only with \"implicit\"");
+    expect_no_effect(warnings_of(test::tree, {key, "network.tier=explicit"}), key, "only with \"implicit\"");
   for (const char* key : {"weakness.strength=0.3", "weakness.thickness=0.8"})
-    expect_no_effect(warnings_of(tree, {key}), key, "without weakness.vessels or weakness.subtrees");
-  expect_no_effect(warnings_of(tree, {"tree.length_by_radius=[[\"1 mm\",\"1 cm\"],[\"2 mm\",\"4 cm\"]]",
-                                      "tree.length_ratio=30"}),
+    expect_no_effect(warnings_of(test::tree, {key}), key, "without weakness.vessels or weakness.subtrees");
+  expect_no_effect(warnings_of(test::tree, {"tree.length_by_radius=[[\"1 mm\",\"1 cm\"],[\"2 mm\",\"4 cm\"]]",
+                                            "tree.length_ratio=30"}),
                    "tree.length_ratio", "where tree.length_by_radius is given");
-  expect_no_effect(warnings_of(tree, {"weakness.seed=2"}), "weakness.seed",
+  expect_no_effect(warnings_of(test::tree, {"weakness.seed=2"}), "weakness.seed",
                    "without weakness.strength_spread");
   for (const char* key : {"network.file_length_unit=mm", "network.statistics=false"})
     expect_no_effect(warnings_of_input("own_network.toml", key), key, "files");
@@ -139,46 +101,26 @@ TEST(Keys, WithoutEffectAreWarnedOf) {
                    "the network supplies the blood");
 }
 
-const std::string ensemble = R"(
-[scene]
-model = "ensemble"
-[ensemble]
-pressures = ["24 kPa"]
-samples = 2
-strength_spread = 0.1
-[vessel]
-inner_radius = "1.5 mm"
-outer_radius = "2 mm"
-length = "2 mm"
-[discretisation]
-spacing = "125 um"
-[load]
-schedule = "smooth_ramp"
-ramp_time = "0.3 ms"
-[time]
-end = "0.4 ms"
-)";
-
 TEST(Warnings, OfRampsThatAreNotOverAtTheEnd) {
-  EXPECT_EQ(warnings_of(ensemble), std::vector<std::string>{});
-  for (const auto& warnings : {warnings_of(ensemble, {"load.ramp_time=0.8 ms"}),
+  EXPECT_EQ(warnings_of(test::ensemble), std::vector<std::string>{});
+  for (const auto& warnings : {warnings_of(test::ensemble, {"load.ramp_time=0.8 ms"}),
                                warnings_of_input("cascade.toml", "load.ramp_time=5 ms")}) {
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings.front().find("the ramp is not over at time.end: walls see "), std::string::npos)
         << warnings.front();
   }
-  EXPECT_NE(warnings_of(ensemble, {"load.ramp_time=0.8 ms"}).front().find(" 50 % "), std::string::npos);
+  EXPECT_NE(warnings_of(test::ensemble, {"load.ramp_time=0.8 ms"}).front().find(" 50 % "), std::string::npos);
 }
 
 TEST(Warnings, OfALoadThatIsBeyondAll) {
-  EXPECT_EQ(warnings_of(vessel), std::vector<std::string>{});
-  const auto warnings = warnings_of(vessel, {"load.pressure=100 MPa"});
+  EXPECT_EQ(warnings_of(test::vessel), std::vector<std::string>{});
+  const auto warnings = warnings_of(test::vessel, {"load.pressure=100 MPa"});
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings.front().find("check the units"), std::string::npos) << warnings.front();
 }
 
 TEST(Risk, IsThatOfLamesHoopStrainAtTheLumen) {
-  const Configuration c = read_text(vessel);
+  const Configuration c = test::read_scene(test::vessel);
   const peridynamics::SharedWall wall = std::get<scenes::VesselScene>(c).wall;
   const peridynamics::Parameters& v = wall->parameters;
   const double hoop = (2.0 * 2.0 + 1.5 * 1.5) / (2.0 * 2.0 - 1.5 * 1.5);  // over the pressure
@@ -187,7 +129,7 @@ TEST(Risk, IsThatOfLamesHoopStrainAtTheLumen) {
 }
 
 TEST(Warnings, OfBloodThatRunsBackwards) {
-  EXPECT_EQ(warnings_of(tree, {"flow.inlet_pressure=1 mmHg"}).size(), 1u);
+  EXPECT_EQ(warnings_of(test::tree, {"flow.inlet_pressure=1 mmHg"}).size(), 1u);
 }
 
 }  // namespace

@@ -301,8 +301,8 @@ TEST(Checkpoint, AnotherFormatIsToldWithItsWriter) {
     return test::message_of<InputError>([&] { CheckpointReader(path, world); }).substr(path.string().size());
   };
   EXPECT_EQ(
-      message("rhexis checkpoint 4", ""),
-      ": a checkpoint of format 4, which an earlier version of Rhexis wrote; this one reads format 5 alone: "
+      message("rhexis checkpoint 5", ""),
+      ": a checkpoint of format 5, which an earlier version of Rhexis wrote; this one reads format 6 alone: "
       "go on with that version, or start anew");
   EXPECT_NE(message("rhexis checkpoint 6", "9.8.7")
                 .find("a checkpoint of format 6, which version 9.8.7 of Rhexis wrote"),
