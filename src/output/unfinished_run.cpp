@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "output/run_record.hpp"

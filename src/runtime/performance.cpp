@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runtime/performance.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "output/json.hpp"
 
 namespace rhexis::runtime {

@@ -49,6 +49,12 @@ ROOMS = {
         "statics": {"bonds", "engine", "geometry", "laws", "stability"},
         "simulation": {"engine", "loads", "monitors", "statics"},
     },
+    "scenes": {
+        "vessel": set(),
+        "network": set(),
+        "coupled": {"network", "vessel"},
+        "ensemble": {"vessel"},
+    },
 }
 
 

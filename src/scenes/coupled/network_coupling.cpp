@@ -9,6 +9,8 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
+#include "coupling/network_load.hpp"
+#include "coupling/turbulence_observer.hpp"
 #include "studies/flow/network_record.hpp"
 
 namespace rhexis::scenes {
@@ -91,6 +93,21 @@ void NetworkCoupling::write(const output::ResultsFolder& folder) {
 void NetworkCoupling::open(const output::ResultsFolder& folder) {
   write(folder);
   coupled_->open_table(folder);
+}
+
+std::unique_ptr<peridynamics::LoadSource> NetworkCoupling::load() {
+  if (!coupled_->two_way()) return nullptr;
+  return std::make_unique<coupling::NetworkLoad>(*coupled_);
+}
+
+void NetworkCoupling::start(peridynamics::VesselSimulation& simulation) {
+  coupling::NetworkLoad(*coupled_).start(simulation);
+}
+
+std::unique_ptr<Observer> NetworkCoupling::observer(const peridynamics::VesselSimulation& simulation,
+                                                    bool& told,
+                                                    std::function<void(const std::string&)> warn) {
+  return std::make_unique<coupling::TurbulenceObserver>(simulation, *coupled_, told, std::move(warn));
 }
 
 void NetworkCoupling::save(output::CheckpointWriter& file) const {

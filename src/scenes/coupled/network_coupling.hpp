@@ -13,12 +13,13 @@
 #include "output/results_folder.hpp"
 #include "runtime/console.hpp"
 #include "scenes/coupled/coupled_scene.hpp"
+#include "scenes/vessel/host_network.hpp"
 #include "studies/cascade/cascade_state.hpp"
 #include "studies/flow/solved_network.hpp"
 
 namespace rhexis::scenes {
 
-class NetworkCoupling {
+class NetworkCoupling final : public HostNetwork {
  public:
   /// Solves the network and chooses its vessel: in a cascade with what the events so far left of it, else
   /// `cascade` is null; it must live on. Nothing is written. Collective. Throws InputError and RunError.
@@ -40,19 +41,24 @@ class NetworkCoupling {
 
   /// Writes the network's files.
   void write(const output::ResultsFolder& folder);
-  /// The same, and begins or continues coupling.csv.
-  void open(const output::ResultsFolder& folder);
 
-  /// See coupling::CoupledVessel; in a cascade with the cascade's state.
-  void save(output::CheckpointWriter& file) const;
-  void restore(output::CheckpointReader& file, double time_s, const std::filesystem::path& directory);
-
-  /// The network as it is shown at a moment: with the vessel's place, pressure and leak.
-  LineSource& lines(long step, double time_s);
-  nlohmann::ordered_json network_record() const;
-  nlohmann::ordered_json results() const;
-  void print_header(runtime::Console& console, double time_step) const;
-  void print_summary(runtime::Console& console) const;
+  std::unique_ptr<peridynamics::LoadSource> load() override;
+  void start(peridynamics::VesselSimulation& simulation) override;
+  std::unique_ptr<Observer> observer(const peridynamics::VesselSimulation& simulation, bool& told,
+                                     std::function<void(const std::string&)> warn) override;
+  void finish(double time_s) override { coupled_->count_leak(time_s); }
+  void open(const output::ResultsFolder& folder) override;
+  /// In a cascade with the cascade's state.
+  void save(output::CheckpointWriter& file) const override;
+  void restore(output::CheckpointReader& file, double time_s,
+               const std::filesystem::path& directory) override;
+  /// With the vessel's place, pressure and leak.
+  LineSource& lines(long step, double time_s) override;
+  std::optional<double> flop() const override { return flow().flop; }
+  nlohmann::ordered_json network_record() const override;
+  nlohmann::ordered_json results() const override;
+  void print_header(runtime::Console& console, double time_step) const override;
+  void print_summary(runtime::Console& console) const override;
 
  private:
   void find_named_vessel();

@@ -4,7 +4,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "coupling/network_load.hpp"
+#include "coupling/coupled_vessel.hpp"
 #include "output/checkpoint.hpp"
 #include "parallel/together.hpp"
 #include "runtime/version.hpp"
@@ -39,7 +39,7 @@ std::filesystem::path VesselRun::write_checkpoint(long step) {
   file.write("time_step", c_.wall->time.step);
   file.write("scheduled_pressure", simulation_->scheduled_pressure_at(step));
   studies::save_wall(*simulation_, given_warnings_, file);
-  if (coupling_ != nullptr) coupling_->save(file);
+  if (network_ != nullptr) network_->save(file);
   file.close();
   return path;
 }
@@ -66,7 +66,7 @@ void VesselRun::read_checkpoint() {
   output::CheckpointReader file(session_.options().restart, comm_);
   if (!file.holds(step_name))
     file.refuse("the checkpoint is of a cascade between two events; only that cascade goes on from it");
-  if (coupling_ == nullptr && file.holds(coupling::coupled_vessel_name))
+  if (network_ == nullptr && file.holds(coupling::coupled_vessel_name))
     file.refuse("the checkpoint is of a vessel that is coupled with a network");
   std::int64_t step = 0;
   file.read(step_name, step, 0);
@@ -76,10 +76,10 @@ void VesselRun::read_checkpoint() {
     file.refuse(fmt::format("the checkpoint is of step {}, this run ends at step {}; raise time.end",
                             first_step_, c_.wall->time.count));
   }
-  if (coupling_ != nullptr)
-    coupling_->restore(file, simulation_->time_at(first_step_), session_.options().directory);
+  if (network_ != nullptr)
+    network_->restore(file, simulation_->time_at(first_step_), session_.options().directory);
   compare_with(file);
-  if (coupling_ != nullptr) coupling::NetworkLoad(coupling_->coupled()).start(*simulation_);
+  if (network_ != nullptr) network_->start(*simulation_);
   studies::restore_wall(*simulation_, *load_, given_warnings_, first_step_, file);
   // What is continued is read before anything is written.
   parallel::on_root<InputError>(

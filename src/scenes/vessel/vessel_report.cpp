@@ -20,7 +20,7 @@ void print_risk(runtime::Console& console, const peridynamics::Parameters& v) {
 void VesselRun::print_header() {
   const peridynamics::Parameters& v = c_.wall->parameters;
   // A coupled run has said its title before the network was solved.
-  if (coupling_ == nullptr) session_.print_title();
+  if (network_ == nullptr) session_.print_title();
   session_.warn(c_.warnings);
   if (!session_.options().restart.empty()) {
     session_.console().item("restart", fmt::format("from step {} ({}) of {}", first_step_,
@@ -59,8 +59,8 @@ void VesselRun::print_header() {
       "load", fmt::format("{} ({}) on the undeformed lumen, layer {}, venting {}",
                           quantity(peridynamics::highest_pressure(v), "Pa"),
                           peridynamics::describe_schedule(v), name_of(v.layer), name_of(v.venting)));
-  if (coupling_ != nullptr) {
-    coupling_->print_header(session_.console(), c_.wall->time.step);
+  if (network_ != nullptr) {
+    network_->print_header(session_.console(), c_.wall->time.step);
   } else {
     print_risk(session_.console(), v);
   }
@@ -103,7 +103,7 @@ void VesselRun::print_summary() {
   session_.console().item("speed", fmt::format("{:.0f} steps/s, {:.3g} bonds/s, both ends counted",
                                                *p.solve_s > 0 ? static_cast<double>(steps) / *p.solve_s : 0.0,
                                                p.bond_evaluations_per_s.value_or(0)));
-  if (coupling_ != nullptr) coupling_->print_summary(session_.console());
+  if (network_ != nullptr) network_->print_summary(session_.console());
   session_.print_cost(p);
 }
 

@@ -12,8 +12,6 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
-#include "coupling/network_load.hpp"
-#include "coupling/turbulence_observer.hpp"
 #include "peridynamics/engine/bond_kernel.hpp"
 #include "peridynamics/simulation/energy_balance.hpp"
 #include "peridynamics/simulation/equilibrium_start.hpp"
@@ -48,12 +46,12 @@ class CallAtSteps final : public Observer {
 }  // namespace
 
 VesselRun::VesselRun(VesselScene scene, runtime::RunOptions options, parallel::Communicator comm,
-                     NetworkCoupling* coupling)
+                     HostNetwork* network)
     : c_(std::move(scene)),
       comm_(comm),
       session_(describe(c_, c_.pictures, c_.output), std::move(options), comm,
                {[this] { return output::Values(results_so_far()); }, [this] { return work(); }}),
-      coupling_(coupling) {}
+      network_(network) {}
 
 VesselRun::~VesselRun() = default;
 
@@ -73,9 +71,9 @@ runtime::Ending VesselRun::run() {
       start_at_equilibrium();
     time_loop();
     warn_of_odd_openings();
-    if (coupling_ != nullptr) {
-      coupling_->coupled().count_leak(simulation_->time());
-      results_.coupling = coupling_->results();
+    if (network_ != nullptr) {
+      network_->finish(simulation_->time());
+      results_.coupling = network_->results();
     }
     session_.finish_pictures();
     session_.make_movie();
@@ -93,17 +91,14 @@ void VesselRun::build() {
   results_.stable_time_step_s = c_.wall->time.stable;
   results_.particles = simulation_->particles();
   results_.bonds = simulation_->body().bonds();
-  if (coupling_ != nullptr && coupling_->coupled().two_way()) {
-    load_ = std::make_unique<coupling::NetworkLoad>(coupling_->coupled());
-  } else if (c_.wall->parameters.venting != peridynamics::Venting::none) {
+  if (network_ != nullptr) load_ = network_->load();
+  if (!load_ && c_.wall->parameters.venting != peridynamics::Venting::none)
     load_ = std::make_unique<peridynamics::VentedLoad>(*c_.wall->parameters.supply_area);
-  } else {
-    load_ = std::make_unique<peridynamics::LoadSource>();
-  }
-  if (coupling_ == nullptr) return;
-  coupling::NetworkLoad(coupling_->coupled()).start(*simulation_);
-  results_.network = coupling_->network_record();
-  results_.coupling = coupling_->results();
+  if (!load_) load_ = std::make_unique<peridynamics::LoadSource>();
+  if (network_ == nullptr) return;
+  network_->start(*simulation_);
+  results_.network = network_->network_record();
+  results_.coupling = network_->results();
 }
 
 void VesselRun::open_results() {
@@ -118,7 +113,7 @@ void VesselRun::open_results() {
   } else {
     history_.emplace(history, comm_);
   }
-  if (coupling_ != nullptr) coupling_->open(session_.folder());
+  if (network_ != nullptr) network_->open(session_.folder());
   if (const auto plan = series_plan()) {
     peridynamics::ParticleSource& particles = simulation_->particle_source();
     fields_.emplace(*plan, particles, particles.reference_positions(), comm_);
@@ -152,7 +147,7 @@ runtime::Work VesselRun::work() const {
   return {.bond_evaluations = start_bond_evaluations_ + simulation_->body().bond_evaluations(),
           .flop_per_evaluation = 0.5 * peridynamics::flop_per_bond,
           .traffic = simulation_->body().traffic(),
-          .network_flop = coupling_ != nullptr ? coupling_->flow().flop : std::nullopt};
+          .network_flop = network_ != nullptr ? network_->flop() : std::nullopt};
 }
 
 void VesselRun::start_at_equilibrium() {
@@ -168,7 +163,7 @@ void VesselRun::start_at_equilibrium() {
 /// What run.json tells of the latest output.
 void VesselRun::note_results(const Moment& moment) {
   const peridynamics::Totals& t = simulation_->totals();
-  if (coupling_ != nullptr) results_.coupling = coupling_->results();
+  if (network_ != nullptr) results_.coupling = network_->results();
   results_.steps = moment.step;
   results_.simulated_s = moment.time_s;
   results_.max_displacement_m = t.max_displacement;
@@ -233,8 +228,8 @@ void VesselRun::time_loop() {
   studies::HistoryObserver history(*simulation_, *load_, std::move(*history_), steps);
   const auto channels = [&] {
     insitu::Channels shown{{"particles", &simulation_->particle_source()}};
-    if (coupling_ != nullptr)
-      shown.push_back({"network", &coupling_->lines(simulation_->step_number(), simulation_->time())});
+    if (network_ != nullptr)
+      shown.push_back({"network", &network_->lines(simulation_->step_number(), simulation_->time())});
     return shown;
   };
   CallAtSteps caller(steps, true, [&](const Moment&) { session_.options().on_output(channels()); });
@@ -248,9 +243,9 @@ void VesselRun::time_loop() {
   loop.subscribe(rupture);
   loop.subscribe(checkpoints, &spent.output);
   loop.subscribe(progress);
-  std::optional<coupling::TurbulenceObserver> turbulence;
-  if (coupling_ != nullptr) {
-    turbulence.emplace(*simulation_, coupling_->coupled(), given_warnings_.turbulence, warn);
+  std::unique_ptr<Observer> turbulence;
+  if (network_ != nullptr) {
+    turbulence = network_->observer(*simulation_, given_warnings_.turbulence, warn);
     loop.subscribe(*turbulence);
   }
   loop.subscribe(results, &spent.output);

@@ -11,8 +11,9 @@
 #include "output/history.hpp"
 #include "peridynamics/simulation/vessel_simulation.hpp"
 #include "runtime/run_session.hpp"
-#include "scenes/coupled/network_coupling.hpp"
 #include "scenes/results.hpp"
+#include "scenes/vessel/host_network.hpp"
+#include "scenes/vessel/vessel_scene.hpp"
 #include "studies/rupture/wall_checkpoint.hpp"
 
 namespace rhexis::scenes {
@@ -22,9 +23,9 @@ void print_risk(runtime::Console& console, const peridynamics::Parameters& vesse
 
 class VesselRun {
  public:
-  /// `coupling`: the network that the vessel is part of, which the scene comes from.
+  /// `network`: the one that the vessel is part of; null: none. It must live on.
   VesselRun(VesselScene scene, runtime::RunOptions options, parallel::Communicator comm,
-            NetworkCoupling* coupling = nullptr);
+            HostNetwork* network = nullptr);
   ~VesselRun();
 
   /// Builds the wall and reads the checkpoint, where there is one; nothing is written. Done by `run` unless
@@ -60,7 +61,7 @@ class VesselRun {
   parallel::Communicator comm_;
   Results results_;
   runtime::RunSession session_;
-  NetworkCoupling* coupling_;
+  HostNetwork* network_;
   std::unique_ptr<peridynamics::VesselSimulation> simulation_;
   std::unique_ptr<peridynamics::LoadSource> load_;
   std::optional<output::History> history_;
