@@ -9,6 +9,10 @@
 
 namespace rhexis {
 
+inline constexpr double pascals_per_mmhg = 133.322387415;
+/// In 1 m3/s.
+inline constexpr double litres_per_minute = 6e4;
+
 /// `value` with at most `digits` significant digits, e.g. "0.0015", "2.38e+05".
 inline std::string text(double value, int digits = 4) {
   char buffer[40];
@@ -35,7 +39,7 @@ inline std::string quantity(double value, const std::string& unit, int digits = 
 
 /// A pressure (Pa) as physicians have it: "120 mmHg".
 inline std::string mmhg(double pascal, int digits = 4) {
-  return text(pascal / 133.322387415, digits) + " mmHg";
+  return text(pascal / pascals_per_mmhg, digits) + " mmHg";
 }
 
 /// A count with its digits in groups of three: "54,800".

@@ -57,10 +57,11 @@ void CoupledVessel::find_load(const std::array<double, 3>& heart) {
   }
 }
 
-void CoupledVessel::extract_wall(peridynamics::Parameters& wall) {
+peridynamics::Parameters CoupledVessel::extract_wall(peridynamics::Parameters wall) {
   segment_ = extract_wall_segment(data_, p_.resolution == Resolution::paper, wall);
   *wall.critical_stretch *= chosen_.strength_factor;
   wall.pressure = pressure();
+  return wall;
 }
 
 void CoupledVessel::set_windows(const peridynamics::Parameters& wall, double time_step,

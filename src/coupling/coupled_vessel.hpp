@@ -3,8 +3,7 @@
 /// coupling, hears of its lumen and its leak at the end of every window.
 ///
 ///     CoupledVessel vessel(...);                       // the load on the intact vessel, Eq. (7)
-///     peridynamics::Parameters wall = ...;             // of the input
-///     vessel.extract_wall(wall);                       // geometry and load of the segment that is simulated
+///     peridynamics::Parameters wall = vessel.extract_wall(input);  // the segment that is simulated
 ///     vessel.set_windows(wall_resolved, time_step);
 ///     for (...) if (vessel.due(step)) vessel.exchange({...});
 #pragma once
@@ -60,9 +59,9 @@ class CoupledVessel {
   const hemodynamics::NetworkVessel& vessel() const { return chosen_; }
   bool two_way() const { return p_.two_way(); }
 
-  /// Geometry, strength and load of the segment of its wall that is simulated, into the parameters of the
-  /// input, which are not resolved yet. Throws InputError.
-  void extract_wall(peridynamics::Parameters& wall);
+  /// The parameters of the input, which are not resolved yet, with geometry, strength and load of the segment
+  /// of its wall that is simulated. Throws InputError.
+  peridynamics::Parameters extract_wall(peridynamics::Parameters wall);
   const WallSegment& segment() const { return segment_; }
   /// Settles the windows of the exchange for a resolved wall. Adds to `warnings`. Throws InputError.
   void set_windows(const peridynamics::Parameters& wall, double time_step,

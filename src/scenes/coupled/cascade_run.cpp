@@ -226,12 +226,13 @@ class CascadeRun {
     console.line("Cascade:");
     for (std::size_t i = 0; i < state_.events.size(); ++i) {
       const studies::CascadeEvent& e = state_.events[i];
-      const std::string outcome = e.ruptured == true
-                                      ? fmt::format("ruptured at {}, inflow {:.4g} to {:.4g} mL/min",
-                                                    quantity(e.time.value_or(0), "s"), e.inflow_before * 6e7,
-                                                    e.inflow_after.value_or(0) * 6e7)
-                                  : e.ruptured == false ? "held"
-                                                        : "interrupted";
+      const std::string outcome =
+          e.ruptured == true
+              ? fmt::format("ruptured at {}, inflow {:.4g} to {:.4g} mL/min",
+                            quantity(e.time.value_or(0), "s"), 1e3 * litres_per_minute * e.inflow_before,
+                            1e3 * litres_per_minute * e.inflow_after.value_or(0))
+          : e.ruptured == false ? "held"
+                                : "interrupted";
       console.item(fmt::format("event {}", i + 1),
                    fmt::format("{}, risk {:.3f}: {}", e.vessel.name, e.risk, outcome));
     }

@@ -76,7 +76,7 @@ VesselScene NetworkCoupling::make_vessel() {
   with_place(scene_, [&] {
     coupled_.emplace(scene_.coupling, problem_, vessel.vessel.discharge_coefficient, *solver_,
                      network_.solution.display, chosen_, reading_.comm, vessel.warnings);
-    coupled_->extract_wall(vessel.vessel);
+    vessel.vessel = coupled_->extract_wall(scene_.vessel);
   });
   resolve_coupled_wall(vessel, reading_);
   with_place(scene_, [&] {
@@ -183,8 +183,8 @@ void NetworkCoupling::print_summary(runtime::Console& console) const {
     console.item("bleeding",
                  fmt::format("{} at the end, {:.3g} uL in all, Reynolds number in the vessel up to {:.0f}; "
                              "net pressure in the middle then {}, in the intact vessel {}",
-                             quantity(s.leak * 6e4, "L/min", 3), s.leaked * 1e9, s.highest_reynolds,
-                             mmhg(s.schedule * s.load.pressure[1]),
+                             quantity(s.leak * litres_per_minute, "L/min", 3), s.leaked * 1e9,
+                             s.highest_reynolds, mmhg(s.schedule * s.load.pressure[1]),
                              mmhg(s.schedule * coupled_->intact_load().pressure[1])));
     console.item("conserved", fmt::format("blood to {:.1e} of the inflow at worst, {} exchanges",
                                           s.worst_imbalance, s.windows));

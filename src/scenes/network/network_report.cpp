@@ -13,7 +13,7 @@ namespace {
 
 std::string flow_text(double flow) {
   // Prefixes are for magnitudes; a vessel may flow against its direction.
-  return fmt::format("{}{}", flow < 0 ? "-" : "", quantity(std::abs(flow) * 6e4, "L/min"));
+  return fmt::format("{}{}", flow < 0 ? "-" : "", quantity(std::abs(flow) * litres_per_minute, "L/min"));
 }
 
 std::string percent(double relative) {
@@ -62,11 +62,11 @@ void print_solution(runtime::Console& console, const studies::SolvedNetwork& net
       // The first, the last, and every so many in between.
       const auto count = static_cast<int>(solution.statistics->generations.size());
       if (g.generation % ((count + 11) / 12) != 0 && g.generation != count - 1) continue;
-      console.line(fmt::format("  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}",
-                               g.generation, grouped(2 * static_cast<long long>(g.vessels)),
-                               quantity(g.radius[0].mean, "m", 3), quantity(g.flow.mean * 6e4, "L/min", 3),
-                               g.pressure[0].mean / 133.322387415, g.pressure[1].mean / 133.322387415,
-                               quantity(g.hoop_stress[0].mean, "Pa", 3)));
+      console.line(fmt::format(
+          "  {:10} {:>12}  {:>11}  {:>13}  {:>7.1f} mmHg  {:>5.1f} mmHg  {:>10}", g.generation,
+          grouped(2 * static_cast<long long>(g.vessels)), quantity(g.radius[0].mean, "m", 3),
+          quantity(g.flow.mean * litres_per_minute, "L/min", 3), g.pressure[0].mean / pascals_per_mmhg,
+          g.pressure[1].mean / pascals_per_mmhg, quantity(g.hoop_stress[0].mean, "Pa", 3)));
     }
   }
   console.item("network", fmt::format("{} vessels, {} junctions", grouped(s.vessels), grouped(s.junctions)));

@@ -78,7 +78,7 @@ TEST(FolderPlan, OfAVesselNamesWhatItWrites) {
   const auto scene = std::get<scenes::VesselScene>(
       read_scene(test::vessel, {"output.checkpoint_every=5", "insitu.enabled=false"}));
   const long last = scene.wall->time.count;
-  const output::FolderPlan plan = scenes::folder_plan(scene, {.directory = "there"});
+  const output::FolderPlan plan = scenes::folder_plan(scene, {.directory = "there", .restart = {}});
   EXPECT_EQ(plan.directory, "there");
   EXPECT_EQ(plan.earlier, output::EarlierResults::remove);
   EXPECT_TRUE(writes(plan, "history.csv") && writes(plan, "run.json") && writes(plan, "particles.h5"));

@@ -15,7 +15,8 @@ namespace {
 /// Two events: one that ruptured, with a comma in its vessel's name, and one that an interrupt ended.
 CascadeState two_events() {
   CascadeState state;
-  CascadeEvent torn{.risk = 1.5,
+  CascadeEvent torn{.vessel = {},
+                    .risk = 1.5,
                     .net_pressure = 2e4,
                     .ruptured = true,
                     .time = 0.1 + 0.2,
@@ -34,7 +35,7 @@ CascadeState two_events() {
   torn.vessel.start = {0, -1, 2};
   torn.vessel.end = {0, 1, 2};
   state.record(torn, hemodynamics::VesselFailure{7, false, {2e-6, 133}}, 4e-3, 1001);
-  CascadeEvent interrupted{.risk = 1.2};
+  CascadeEvent interrupted{.vessel = {}, .risk = 1.2};
   interrupted.vessel.name = "b";
   interrupted.vessel.vessel = 2;
   state.record(interrupted, {}, 1e-3, 251);
