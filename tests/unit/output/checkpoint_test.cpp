@@ -304,8 +304,8 @@ TEST(Checkpoint, AnotherFormatIsToldWithItsWriter) {
       message("rhexis checkpoint 5", ""),
       ": a checkpoint of format 5, which an earlier version of Rhexis wrote; this one reads format 6 alone: "
       "go on with that version, or start anew");
-  EXPECT_NE(message("rhexis checkpoint 6", "9.8.7")
-                .find("a checkpoint of format 6, which version 9.8.7 of Rhexis wrote"),
+  EXPECT_NE(message("rhexis checkpoint 7", "9.8.7")
+                .find("a checkpoint of format 7, which version 9.8.7 of Rhexis wrote"),
             std::string::npos);
   EXPECT_EQ(message("something else", ""),
             ": not a checkpoint of Rhexis: its attribute 'format' is missing or says something else");
