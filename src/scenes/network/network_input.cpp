@@ -54,8 +54,8 @@ void resolve_network(SceneInput& s, NetworkInput& n, parallel::Communicator comm
   if (n.problem.network.tier == network::Tier::distributed_graph && n.screening.top > 0)
     throw InputError("vessels are screened with network.tier = \"implicit\" or \"explicit\"",
                      "screening.top");
-  if (!n.problem.is_tree()) refuse_keys_of_trees(s);
   const std::vector<std::string> warnings = hemodynamics::resolve(n.problem);
+  if (!n.problem.is_tree()) refuse_keys_of_trees(s);
   warn_of_keys_without_effect(s, n.problem.network);
   append(s.warnings, warnings);
   if (!n.problem.is_tree())
