@@ -191,7 +191,7 @@ class DistributedSolver final : public FlowSolver {
   void show(NetworkSolution& s) const {
     const bool bare = part_.local.x.empty() && part_.local.vessels() > 0;
     if (total(bare ? 1 : 0) > 0) {  // a rank that has no vessels cannot tell
-      s.warnings.push_back(no_coordinates);
+      s.warnings.emplace_back(no_coordinates);
       return;
     }
     const std::size_t most =

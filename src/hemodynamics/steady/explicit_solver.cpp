@@ -190,7 +190,7 @@ class ExplicitSolver final : public FlowSolver {
   void show(NetworkSolution& s) const {
     const Graph& g = network_.graph;
     if (g.x.empty()) {
-      s.warnings.push_back(no_coordinates);
+      s.warnings.emplace_back(no_coordinates);
       return;
     }
     s.display.extent.emplace();

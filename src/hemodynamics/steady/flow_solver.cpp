@@ -53,13 +53,13 @@ std::unique_ptr<FlowSolver> checked_solver_of(const FlowProblem& problem, parall
 
 }  // namespace
 
-std::unique_ptr<FlowSolver> checked_solver(FlowProblem problem, parallel::Communicator comm) {
+std::unique_ptr<FlowSolver> checked_solver(const FlowProblem& problem, parallel::Communicator comm) {
   auto solver = checked_solver_of(problem, comm);
   if (!problem.builds_tree()) solver->prepare();
   return solver;
 }
 
-std::unique_ptr<FlowSolver> prepared_solver(FlowProblem problem, parallel::Communicator comm) {
+std::unique_ptr<FlowSolver> prepared_solver(const FlowProblem& problem, parallel::Communicator comm) {
   auto solver = checked_solver_of(problem, comm);
   solver->prepare();
   return solver;

@@ -126,9 +126,9 @@ inline constexpr double bytes_per_vessel = 100;
 
 /// The solver of network.tier, prepared, ready to solve. Throws InputError for all that a user may have got
 /// wrong. Collective.
-std::unique_ptr<FlowSolver> prepared_solver(FlowProblem problem, parallel::Communicator comm);
+std::unique_ptr<FlowSolver> prepared_solver(const FlowProblem& problem, parallel::Communicator comm);
 /// The same, but a tree that is to be held in memory is only checked to fit there: what description() needs.
-std::unique_ptr<FlowSolver> checked_solver(FlowProblem problem, parallel::Communicator comm);
+std::unique_ptr<FlowSolver> checked_solver(const FlowProblem& problem, parallel::Communicator comm);
 
 /// Warns where Eq. (9) does not hold, where nothing flows and where vessels would collapse; throws RunError
 /// for a flow that is no number. `driving`, Pa: the lowest and highest pressure without the weight of blood.
