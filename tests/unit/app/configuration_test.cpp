@@ -29,14 +29,15 @@ TEST(Scene, IsThatOfItsModel) {
   EXPECT_TRUE(std::holds_alternative<scenes::VesselScene>(read_scene(test::vessel)));
   EXPECT_TRUE(std::holds_alternative<scenes::NetworkScene>(read_scene(test::tree)));
   EXPECT_TRUE(std::holds_alternative<scenes::EnsembleScene>(read_scene(test::ensemble)));
-  EXPECT_TRUE(std::holds_alternative<scenes::CoupledScene>(test::read_file("inputs/two_way.toml")));
+  EXPECT_TRUE(std::holds_alternative<scenes::CoupledScene>(
+      test::read_file("inputs/two_way.toml", {"insitu.enabled=false"})));
 }
 
 TEST(Scene, HasItsWallWhereThatIsKnownBeforeTheRun) {
   EXPECT_NE(wall_of(read_scene(test::vessel)), nullptr);
   EXPECT_NE(wall_of(read_scene(test::ensemble)), nullptr);
   EXPECT_EQ(wall_of(read_scene(test::tree)), nullptr);
-  EXPECT_EQ(wall_of(test::read_file("inputs/two_way.toml")), nullptr);
+  EXPECT_EQ(wall_of(test::read_file("inputs/two_way.toml", {"insitu.enabled=false"})), nullptr);
 }
 
 TEST(Scene, OfNoKnownModelIsRefused) {
@@ -115,8 +116,8 @@ TEST(FolderPlan, OfANetworkDependsOnItsSolver) {
 }
 
 TEST(FolderPlan, OfACascadeHasAFolderForEachEvent) {
-  const auto scene =
-      std::get<scenes::CoupledScene>(test::read_file("inputs/cascade.toml", {"cascade.events=2"}));
+  const auto scene = std::get<scenes::CoupledScene>(
+      test::read_file("inputs/cascade.toml", {"cascade.events=2", "insitu.enabled=false"}));
   const output::FolderPlan plan = scenes::folder_plan(scene, {});
   EXPECT_TRUE(writes(plan, "cascade.csv") && writes(plan, "event_01/history.csv") &&
               writes(plan, "event_02/history.csv"));
