@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Parallel HDF5, as hdf5::hdf5.
-block(PROPAGATE HDF5_C_LIBRARIES)
+block(PROPAGATE HDF5_C_LIBRARIES HDF5_VERSION)
   # FindHDF5 asks HDF5's compiler wrapper, which on Debian 12 is a script that fails in a path with a space; then it
   # searches where pkg-config says.
   pkg_search_module(HDF5_HINT QUIET hdf5-openmpi hdf5-mpich hdf5)
