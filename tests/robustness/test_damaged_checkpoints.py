@@ -17,21 +17,13 @@ import unittest
 import h5py
 
 from study.damage import KINDS, datasets
+from study.tube import SMALL_TUBE
 
 RHEXIS = sys.argv[1]
 NUMBER = int(sys.argv[2]) if len(sys.argv) > 2 else 40
 SEED = int(sys.argv[3]) if len(sys.argv) > 3 else 1
 
-TUBE = """\
-[vessel]
-inner_radius = "0.3 mm"
-outer_radius = "0.6 mm"
-length = "1.2 mm"
-[discretisation]
-spacing = "100 um"
-[load]
-pressure = "20 kPa"
-schedule = "step"
+TUBE = SMALL_TUBE + """\
 [time]
 step = "1 us"
 end = "60 us"

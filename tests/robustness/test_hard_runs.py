@@ -17,21 +17,11 @@ import unittest
 import h5py
 import numpy
 
+from study.tube import SMALL_TUBE
+
 RHEXIS = sys.argv[1]
 
-TUBE = """\
-[vessel]
-inner_radius = "0.3 mm"
-outer_radius = "0.6 mm"
-length = "1.2 mm"
-
-[discretisation]
-spacing = "100 um"
-
-[load]
-pressure = "20 kPa"
-schedule = "step"
-
+TUBE = SMALL_TUBE + """\
 [time]
 end = "0.4 ms"
 

@@ -3,24 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "support/vessels.hpp"
+#include "support/weak_vessel.hpp"
 
 namespace rhexis::ensemble {
 namespace {
 
-/// A short piece of the paper's wall, weak and coarse.
 const peridynamics::WallModel& weak_wall() {
-  peridynamics::Parameters v = test::paper_vessel(1e-3);
-  v.spacing = 1.6e-4;
-  v.horizon = 5.6e-4;
-  v.critical_stretch = 0.02;
-  v.ends = peridynamics::EndCondition::axial_periodic;
-  v.length = 1.6e-3;
-  v.schedule = peridynamics::Schedule::smooth_ramp;
-  v.end_time = 5e-4;
-  v.step_fraction = 0.65;
-  peridynamics::resolve(v);
-  static const peridynamics::SharedWall wall = peridynamics::make_wall(v);
+  static const peridynamics::SharedWall wall = peridynamics::make_wall(test::weak_vessel());
   return *wall;
 }
 
