@@ -22,7 +22,7 @@ py::array_t<Number> view(const Number* data, std::vector<py::ssize_t> shape, con
   return values;
 }
 
-/// Of the field `name`: an array [n], or a tuple of three for x, y and z. Throws KeyError.
+/// The field `name` as numpy sees it: an array [n], or a tuple of three for x, y and z. Throws KeyError.
 template <class Source>
 py::object values(const py::object& owner, const std::string& name) {
   Source& source = owner.cast<const Fields<Source>&>().source();

@@ -31,7 +31,7 @@ std::string checksum_name_of(const std::string& dataset) {
   return "checksum_of_" + dataset;
 }
 
-/// Of names and values, in the order of the names.
+/// Checksum of names and values, in the order of the names.
 std::uint64_t checksum_of(const CheckpointNumbers& numbers) {
   std::string text;
   for (const auto& [name, value] : numbers) {

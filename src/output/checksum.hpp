@@ -25,7 +25,7 @@ constexpr std::uint64_t mix(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Of one value: 2^64 divided by the golden ratio, odd, keeps the numbers of neighbours far apart.
+/// Mixes one value: 2^64 divided by the golden ratio, odd, keeps the numbers of neighbours far apart.
 constexpr std::uint64_t checksum_term(std::uint64_t key, std::uint64_t index, std::uint64_t bits) {
   return mix(bits + key + index * 0x9e3779b97f4a7c15u);
 }

@@ -30,7 +30,7 @@ struct FutureFiles {
 struct FolderPlan {
   std::filesystem::path directory;
   EarlierResults earlier = EarlierResults::remove;
-  /// Of earlier results that are kept, whether this file goes all the same, unless it is a checkpoint.
+  /// Whether this file goes although earlier results are kept, unless it is a checkpoint.
   std::function<bool(const std::string& name)> drops = [](const std::string&) { return false; };
   bool overwrite = false;                         ///< files that no run made may be replaced
   std::vector<std::filesystem::path> reads = {};  ///< files, or folders of files, that are never touched

@@ -41,7 +41,7 @@ struct WallDemand {
   bool geometry_is_given = false;  ///< radii and length are not the input's to change
 };
 
-/// Of one wall of `resolved` parameters, bytes of the ranks that share it.
+/// Memory of one wall of `resolved` parameters, in bytes, on all ranks that share it.
 WallMemory memory_of(const Parameters& resolved, const WallDemand& demand);
 
 /// Throws InputError, of the key that is most likely at fault, where the memory of this machine does not

@@ -13,7 +13,8 @@ namespace rhexis::runtime {
 
 class ProgressObserver final : public Observer {
  public:
-  /// Of `steps` in all; `state`: a few words on the moment at hand. `console` must live on.
+  /// Tells the progress among `steps` in all; `state`: a few words on the moment at hand. `console` must live
+  /// on.
   ProgressObserver(Console& console, long steps, std::function<std::string()> state)
       : console_(console), steps_(steps), state_(std::move(state)) {}
   void arrive(const Moment& moment) override { console_.progress(moment.step, steps_, state_()); }

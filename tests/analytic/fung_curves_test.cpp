@@ -69,7 +69,7 @@ class Rod {
     }
   }
 
-  /// Of the particle in the middle, J/m3.
+  /// Strain energy density of the particle in the middle, J/m3.
   double energy(Stretches f) const {
     body_->set_state(
         test::sample(

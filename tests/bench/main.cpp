@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Of every benchmark program:
+// The main function of every benchmark program:
 //
 //   bench_... [--samples N] [--scratch FOLDER] [options of Google Benchmark, such as
 //   --benchmark_filter=threads=1]

@@ -32,10 +32,10 @@ class VesselInNetwork {
                             double outside_pressure) const = 0;
 };
 
-/// Of a tree pair: the way from the root to the vessel is solved, O(k). Collective. `flow` must live on.
+/// In a tree pair: the way from the root to the vessel is solved, O(k). Collective. `flow` must live on.
 std::unique_ptr<VesselInNetwork> vessel_in_tree(const TreeFlow& flow, std::uint64_t vessel);
 
-/// Of a graph that fits into memory: all of it is solved each time.
+/// In a graph that fits into memory: all of it is solved each time.
 std::unique_ptr<VesselInNetwork> vessel_in_graph(network::Graph graph, std::vector<double> conductance,
                                                  std::vector<network::BoundaryCondition> conditions,
                                                  std::uint32_t vessel);

@@ -24,7 +24,7 @@ namespace rhexis::peridynamics {
 /// so the result does not depend on ranks.
 class OpeningGauge {
  public:
-  /// Of a body of columns; it and `lattice` must live on.
+  /// Measures a body of columns; it and `lattice` must live on.
   OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm, EndCondition ends,
                const ThinSpots& thin_spots = {});
 
@@ -56,7 +56,7 @@ class OpeningGauge {
 /// How wide the lumen is, measured on the innermost particles of each axial row.
 class LumenGauge {
  public:
-  /// Of a body of columns; it and `lattice` must live on.
+  /// Measures a body of columns; it and `lattice` must live on.
   LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);
 
   /// Resistance to flow by Eq. (9) of the deformed vessel over that of the undeformed: the mean over rows of

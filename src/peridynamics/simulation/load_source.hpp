@@ -18,7 +18,7 @@ class LoadSource {
   virtual void before_step(VesselSimulation&) {}
   /// What leaves the vessel through its opening as last measured, m3/s: by itself, by the orifice law.
   virtual double leak(const VesselSimulation& simulation) const;
-  /// Of the scheduled pressure, at most.
+  /// The largest share of the scheduled pressure that this source ever lets act.
   virtual double largest_share() const { return 1; }
 };
 

@@ -99,7 +99,7 @@ class VesselSimulation {
   RuptureEvents rupture_;
   LoadState load_;
 
-  // Of the present moment, where it has been observed.
+  // What was observed at the present moment, where it was.
   bool observed_ = false;
   std::optional<Totals> totals_;
   bool opening_measured_ = false;

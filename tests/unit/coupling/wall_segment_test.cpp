@@ -98,7 +98,7 @@ TEST(AxialProfile, IsLinearBetweenEndsAndMiddle) {
   segment.start = 2e-3;
   segment.length = 6e-3;
   const auto profile = axial_profile(load, paper, segment);
-  // Of the load on the segment itself, which ends at 2 and 8 of 10 mm.
+  // The load on the segment itself, which ends at 2 and 8 of 10 mm.
   EXPECT_NEAR(largest_load(load, paper, segment), 320, 1e-12);
   EXPECT_NEAR(profile(0.5e-3), 300.0 / 320, 1e-15);  // at 2.5 mm
   EXPECT_NEAR(profile(5.5e-3), 150.0 / 320, 1e-15);  // at 7.5 mm

@@ -13,7 +13,7 @@
 namespace rhexis::network {
 namespace {
 
-/// Of the program it is UDUNITS.
+/// Converts units; in the program this is UDUNITS.
 double to_si(std::string_view quantity, std::string_view unit) {
   static const std::map<std::string, std::pair<double, std::string>, std::less<>> units{
       {"1 um", {1e-6, "m"}},       {"1 mm", {1e-3, "m"}},        {"1 m", {1, "m"}},

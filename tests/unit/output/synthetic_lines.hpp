@@ -18,7 +18,7 @@ namespace rhexis::test {
 class SyntheticLines : public LineSource {
  public:
   SyntheticLines(std::int64_t lines, const parallel::Communicator& world, long step) : step_(step) {
-    // Of two ranks and more, the second has nothing and the first what would be its share too.
+    // On two ranks and more, the second has nothing and the first what would be its share too.
     const bool alone = world.size() == 1;
     const auto cut = [&](int part) { return lines * (part == 1 && !alone ? 2 : part) / world.size(); };
     first_ = cut(world.rank());

@@ -11,7 +11,7 @@
 namespace rhexis::parallel {
 namespace {
 
-/// Of the paper's wall, 548 columns with 130 bonds a particle.
+/// What cuts cost in the paper's wall, 548 columns with 130 bonds a particle.
 constexpr CutCosts paper{.bonds_across = 400, .halo_columns = 20, .halo_rows = 3};
 
 TEST(Partition, CoversEveryParticleOnce) {

@@ -13,7 +13,7 @@
 namespace rhexis::peridynamics {
 namespace {
 
-/// Of the units that the tests write.
+/// Converts the units that the tests write.
 double to_si(std::string_view text, std::string_view) {
   if (text == "1 ms") return 1e-3;
   if (text == "1 kPa") return 1e3;

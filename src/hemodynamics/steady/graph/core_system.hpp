@@ -66,7 +66,7 @@ class CoreSystem {
   void add(std::span<double> x);
 
   double dot(std::span<const double> a, std::span<const double> b, int threads) const;
-  /// Of the unknowns on all ranks; nan if any is nan.
+  /// Largest absolute value of the unknowns on all ranks; nan if any is nan.
   double largest(std::span<const double> a) const;
   /// Sum of the flows into the network through conditions, if pressures were p + x.
   double inflow(std::span<const double> x) const;

@@ -119,7 +119,7 @@ void Reduction::loses_vessel(std::uint32_t junction) {
   if (degree_[junction] == 0 && !kept_[junction]) floating_ = junction;
 }
 
-/// Of two vessels between the same junctions, one takes over both.
+/// Where two vessels join the same junctions, one takes over both.
 void Reduction::merge(std::uint32_t survivor, std::uint32_t removed) {
   const bool same_direction = tail_[survivor] == tail_[removed];
   const std::uint32_t a = tail_[removed], b = head_[removed];

@@ -52,7 +52,7 @@ class Reduction {
   std::uint32_t head(std::uint32_t vessel) const { return head_[vessel]; }
   double conductance(std::uint32_t vessel) const { return conductance_[vessel]; }
   bool kept(std::uint32_t junction) const { return kept_[junction]; }
-  /// Of a junction that is left, with what removed ones passed on to it.
+  /// The inflow at a junction that is left, with what removed ones passed on to it.
   double injection(std::uint32_t junction) const { return value_[junction]; }
 
   /// Before `restore`: results at what is left.

@@ -55,7 +55,7 @@ class Subtree {
 
   /// Capacities, lengths and resistances of all vessels below a place.
   void grow(std::uint64_t place, double capacity);
-  /// Of an open subtree: where the resistances of the 2^depth daughters go, before `rise`.
+  /// In an open subtree: where the resistances of the 2^depth daughters go, before `rise`.
   double* daughter_resistances() { return below_ + (std::size_t{1} << depth_); }
   /// Resistance of the whole, Pa s/m3 (at the far end, by the daughters' resistances).
   double rise();
@@ -75,8 +75,8 @@ class Subtree {
     return law_.vein_follows ? artery_[n] * law_.vein_factor : vein_[n];
   }
 
-  /// Of place n, after `fall`: flow, then pressures at the artery's near and far end and the vein's near and
-  /// far end.
+  /// What is known at place n after `fall`: flow, then pressures at the artery's near and far end and the
+  /// vein's near and far end.
   void state_of(std::size_t n, double values[5]) const;
 
   /// Vessels of local generation l, after `fall`; radius and length are null without geometry.

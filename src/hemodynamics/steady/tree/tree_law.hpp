@@ -17,7 +17,7 @@ struct TreeLaw {
 
   /// Resistance (Pa s/m3, Eq. 9) of an artery of unit length factor.
   network::IntervalTable artery_resistance;
-  /// Of its vein; empty where that is `vein_factor` times the artery's.
+  /// The same table for its vein; empty where that is `vein_factor` times the artery's.
   network::IntervalTable vein_resistance;
   bool vein_follows = true;
   double vein_factor = 1;

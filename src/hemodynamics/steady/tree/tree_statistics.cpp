@@ -25,7 +25,7 @@ using lanes::width;
 using parallel::ExactSum;
 using Integers = BinFinder::Integers;
 
-/// Of every counter, taken by turns, so that equal bins do not wait for each other.
+/// Copies of every counter, taken by turns, so that equal bins do not wait for each other.
 constexpr int copies_shift = 1;
 constexpr std::size_t copies = std::size_t{1} << copies_shift;
 

@@ -20,7 +20,7 @@ struct Spread {
   double mean = 0, least = 0, most = 0;
 };
 
-/// Of one generation; index 0 for arteries, 1 for veins.
+/// What is known of one generation; index 0 for arteries, 1 for veins.
 struct GenerationStatistics {
   int generation = 0;
   double vessels = 0;  ///< of each kind
