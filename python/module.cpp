@@ -38,14 +38,20 @@ void without_lock(const std::function<void()>& work) {
   }
 }
 
-/// A document of JSON.
-std::string check(const std::string& file, const std::vector<std::string>& overrides) {
-  const Call call;
+app::Command command_of(app::Action action, const std::string& file,
+                        const std::vector<std::string>& overrides) {
   app::Command command;
-  command.action = app::Action::check;
+  command.action = action;
   command.file = file;
   command.overrides = overrides;
   command.embedded = true;
+  return command;
+}
+
+/// A document of JSON.
+std::string check(const std::string& file, const std::vector<std::string>& overrides) {
+  const Call call;
+  const app::Command command = command_of(app::Action::check, file, overrides);
   std::string values;
   without_lock([&] { values = app::checked_values(command, parallel::Communicator::world()).dump(); });
   return values;
@@ -62,15 +68,11 @@ void hand_on(int signal) {
 void run(const std::string& file, const std::vector<std::string>& overrides, const std::string& directory,
          const std::string& restart, bool overwrite, bool quiet, const py::object& progress) {
   const Call call;
-  app::Command command;
-  command.action = app::Action::run;
-  command.file = file;
-  command.overrides = overrides;
+  app::Command command = command_of(app::Action::run, file, overrides);
   command.directory = directory;
   command.restart = restart;
   command.overwrite = overwrite;
   command.quiet = quiet;
-  command.embedded = true;
   command.arguments = {"rhexis", "run", file};
   for (const std::string& text : overrides)
     command.arguments.insert(command.arguments.end(), {"--set", text});

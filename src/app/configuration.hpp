@@ -42,9 +42,8 @@ inline const peridynamics::WallModel* wall_of(const Configuration& c) {
 }
 
 /// Reads and validates `file` with `overrides`, resolves what follows from them, and notes in `reading` what
-/// that took. Only the keys of the
-/// scene's kind are read; any other is an error. Collective: one rank reads, all get the same configuration
-/// or the same InputError.
+/// that took. Only the keys of the scene's kind are read; any other is an error. Collective: one rank reads,
+/// all get the same configuration or the same InputError.
 Configuration read_configuration(const std::string& file, const std::vector<std::string>& overrides,
                                  scenes::Reading& reading);
 
