@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# ParaView's VTK, looked for once: for the pictures (src/insitu) and for VTP files (src/network/vtp).
+# ParaView's VTK, looked for once: for the pictures (src/insitu) and for VTP files (src/network/files/vtp).
 if(NOT RHEXIS_INSITU)
   return()
 endif()

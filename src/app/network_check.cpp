@@ -8,7 +8,7 @@
 #include "core/format.hpp"
 #include "core/stopwatch.hpp"
 #include "hemodynamics/steady/tree/tree_statistics.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 #include "runtime/console.hpp"
 
 namespace rhexis::app {

@@ -20,7 +20,7 @@
 #include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "hemodynamics/viscosity.hpp"
 #include "network/graph.hpp"
-#include "network/tree_selection.hpp"
+#include "network/tree/tree_selection.hpp"
 #include "network/wall_variation.hpp"
 
 namespace rhexis::hemodynamics {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,12 +47,15 @@ struct BoundaryCondition {
   Kind kind = Kind::pressure;
   double value = 0;       ///< pressure relative to atmosphere, Pa; or flow into the network, m3/s
   double resistance = 0;  ///< Pa s/m3, of a pressure condition; 0: the pressure is the junction's own
+  std::optional<double> haematocrit =
+      {};  ///< of the blood that enters here, as a fraction; none: the input's
 };
 
 /// A network and what its file says of its boundary.
 struct BoundedGraph {
   Graph graph;
   std::vector<BoundaryCondition> conditions;
+  std::vector<std::string> notes = {};  ///< sentences for the user: what was ignored, merged or assumed
 };
 
 }  // namespace rhexis::network

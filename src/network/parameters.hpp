@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/parameter.hpp"
-#include "network/tree_rules.hpp"
+#include "network/tree/tree_rules.hpp"
 #include "network/wall.hpp"
 #include "network/wall_variation.hpp"
 

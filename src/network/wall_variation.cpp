@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 
 namespace rhexis::network {
 

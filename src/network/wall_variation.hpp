@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Walls that differ from their rule: vessels marked as weak, and scatter from vessel to vessel.
 ///
-/// A vessel has a *number* among those of its kind: its place in a tree (network/tree_pair.hpp), its index in
+/// A vessel has a *number* among those of its kind: its place in a tree (network/tree/tree_pair.hpp), its index in
 /// a graph. Scatter is drawn from a counter-based stream by that number, so it does not depend on who asks.
 #pragma once
 
@@ -14,7 +14,7 @@
 #include "core/parameter.hpp"
 #include "network/graph.hpp"
 #include "network/interval_table.hpp"
-#include "network/random_stream.hpp"
+#include "network/tree/random_stream.hpp"
 
 namespace rhexis::network {
 

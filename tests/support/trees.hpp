@@ -7,8 +7,8 @@
 
 #include "hemodynamics/poiseuille.hpp"
 #include "hemodynamics/viscosity.hpp"
-#include "network/random_stream.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/random_stream.hpp"
+#include "network/tree/tree_pair.hpp"
 
 namespace rhexis::test {
 

@@ -13,7 +13,7 @@
 #include "hemodynamics/steady/flow_solver.hpp"
 #include "hemodynamics/steady/graph/distributed_flow.hpp"
 #include "hemodynamics/steady/graph/network_graph.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::hemodynamics {

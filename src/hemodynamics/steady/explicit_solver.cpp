@@ -15,7 +15,7 @@
 #include "hemodynamics/steady/graph/haematocrit.hpp"
 #include "hemodynamics/steady/graph/network_graph.hpp"
 #include "hemodynamics/steady/ruptured_network.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 #include "parallel/together.hpp"
 
 namespace rhexis::hemodynamics {

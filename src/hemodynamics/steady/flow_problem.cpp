@@ -7,8 +7,8 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
-#include "network/network_file.hpp"
-#include "network/vtp_network.hpp"
+#include "network/files/network_file.hpp"
+#include "network/files/vtp_network.hpp"
 
 namespace rhexis::hemodynamics {
 namespace {

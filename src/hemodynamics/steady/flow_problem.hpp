@@ -12,7 +12,7 @@
 #include "hemodynamics/steady/ruptured_network.hpp"
 #include "hemodynamics/vessel_lines.hpp"
 #include "network/parameters.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 
 namespace rhexis::hemodynamics {
 

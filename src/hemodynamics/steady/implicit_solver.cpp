@@ -12,7 +12,7 @@
 #include "hemodynamics/steady/flow_solver.hpp"
 #include "hemodynamics/steady/tree/tree_flow.hpp"
 #include "hemodynamics/viscosity.hpp"
-#include "network/tree_selection.hpp"
+#include "network/tree/tree_selection.hpp"
 
 namespace rhexis::hemodynamics {
 namespace {

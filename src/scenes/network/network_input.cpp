@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "input/catalogue.hpp"
-#include "network/network_file.hpp"
+#include "network/files/network_file.hpp"
 #include "runtime/version.hpp"
 
 namespace rhexis::scenes {

@@ -4,7 +4,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "core/lognormal.hpp"
-#include "network/random_stream.hpp"
+#include "network/tree/random_stream.hpp"
 
 namespace rhexis::ensemble {
 

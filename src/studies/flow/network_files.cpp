@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "studies/flow/network_files.hpp"
 
-#include "network/vtp_network.hpp"
+#include "network/files/vtp_network.hpp"
 #include "output/atomic_file.hpp"
 #include "output/line_series.hpp"
 #include "output/temporary_file.hpp"

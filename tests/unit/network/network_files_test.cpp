@@ -7,7 +7,7 @@
 #include <map>
 
 #include "core/error.hpp"
-#include "network/network_file.hpp"
+#include "network/files/network_file.hpp"
 #include "unit/output/temporary_directory.hpp"
 
 namespace rhexis::network {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The implicit tree pair: numbering, the rule of radii, positions. Tolerances are a few roundings.
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 
 #include <gtest/gtest.h>
 

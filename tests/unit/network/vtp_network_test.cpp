@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Networks as VTP: what ParaView and centre line tools write is read, what we write comes back.
-#include "network/vtp_network.hpp"
+#include "network/files/vtp_network.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "network/interval_table.hpp"
-#include "network/random_stream.hpp"
+#include "network/tree/random_stream.hpp"
 
 #if HWY_TARGET <= HWY_AVX3
 #include <immintrin.h>

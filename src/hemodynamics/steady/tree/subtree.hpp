@@ -17,7 +17,7 @@
 #include <cstdint>
 
 #include "hemodynamics/steady/tree/tree_law.hpp"
-#include "network/random_stream.hpp"
+#include "network/tree/random_stream.hpp"
 
 namespace rhexis::hemodynamics {
 

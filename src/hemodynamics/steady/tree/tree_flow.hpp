@@ -19,7 +19,7 @@
 #include "hemodynamics/steady/tree/subtree.hpp"
 #include "hemodynamics/steady/tree/tree_law.hpp"
 #include "network/graph.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::hemodynamics {

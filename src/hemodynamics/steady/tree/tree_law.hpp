@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a vessel of the tree pair is like as a function of its capacity (network/tree_rules.hpp) alone,
+/// What a vessel of the tree pair is like as a function of its capacity (network/tree/tree_rules.hpp) alone,
 /// tabulated: the rules, the viscosity law and Eq. (9) in one look-up. What depends on the generation or on
 /// the vessel itself is a factor on its length.
 #pragma once
@@ -8,7 +8,7 @@
 
 #include "hemodynamics/viscosity.hpp"
 #include "network/interval_table.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 
 namespace rhexis::hemodynamics {
 

@@ -18,7 +18,7 @@
 
 #include "network/graph.hpp"
 #include "network/interval_table.hpp"
-#include "network/tree_rules.hpp"
+#include "network/tree/tree_rules.hpp"
 
 namespace rhexis::network {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "network/network_file.hpp"
+#include "network/files/network_file.hpp"
 
 namespace rhexis::network {
 namespace {

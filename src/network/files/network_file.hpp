@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "network/graph.hpp"
-#include "network/network_builder.hpp"
+#include "network/files/network_builder.hpp"
 
 namespace rhexis::network {
 

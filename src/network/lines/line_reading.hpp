@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The work behind vtp_lines.hpp: what the file has (vtp_points.cpp) and how it is cut (vtp_lines.cpp).
+/// The work behind line_network.hpp: what the file has (line_points.cpp) and how it is cut (line_network.cpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "network/graph.hpp"
-#include "network/vtp/interface.hpp"
+#include "network/files/vtp/interface.hpp"
 
 namespace rhexis::network::vtp {
 

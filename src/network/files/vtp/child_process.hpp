@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "network/vtp/interface.hpp"
+#include "network/files/vtp/interface.hpp"
 
 namespace rhexis::network::vtp {
 

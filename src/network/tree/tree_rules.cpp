@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "network/tree_rules.hpp"
+#include "network/tree/tree_rules.hpp"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "network/random_stream.hpp"
+#include "network/tree/random_stream.hpp"
 
 namespace rhexis::network {
 namespace {

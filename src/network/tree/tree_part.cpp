@@ -4,7 +4,7 @@
 #include <bit>
 #include <unordered_map>
 
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 
 namespace rhexis::network {
 namespace {

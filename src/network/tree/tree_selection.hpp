@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 
 namespace rhexis::network {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "network/vtp_network.hpp"
+#include "network/files/vtp_network.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/plugin.hpp"
-#include "network/vtp_lines.hpp"
+#include "network/lines/line_network.hpp"
 
 namespace rhexis::network {
 namespace {

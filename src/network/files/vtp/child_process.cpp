@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "network/vtp/child_process.hpp"
+#include "network/files/vtp/child_process.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>

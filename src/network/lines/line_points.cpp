@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "network/vtp_reading.hpp"
+#include "network/lines/line_reading.hpp"
 
 namespace rhexis::network::vtp {
 namespace {

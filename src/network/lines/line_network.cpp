@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "network/vtp_lines.hpp"
+#include "network/lines/line_network.hpp"
 
 #include <functional>
 #include <limits>
 
-#include "network/vtp_reading.hpp"
+#include "network/lines/line_reading.hpp"
 
 namespace rhexis::network {
 namespace vtp {

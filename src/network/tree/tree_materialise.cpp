@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/error.hpp"
-#include "network/tree_pair.hpp"
+#include "network/tree/tree_pair.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/large_array.hpp"
 #include "parallel/threads.hpp"

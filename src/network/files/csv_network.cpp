@@ -3,7 +3,7 @@
 
 #include "core/csv_table.hpp"
 #include "core/error.hpp"
-#include "network/network_file.hpp"
+#include "network/files/network_file.hpp"
 
 namespace rhexis::network {
 namespace {

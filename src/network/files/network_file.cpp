@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "network/network_file.hpp"
+#include "network/files/network_file.hpp"
 
 #include "core/error.hpp"
 #include "core/text_file.hpp"
-#include "network/vtp_network.hpp"
+#include "network/files/vtp_network.hpp"
 
 namespace rhexis::network {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "network/tree_selection.hpp"
+#include "network/tree/tree_selection.hpp"
 
 #include <algorithm>
 #include <queue>

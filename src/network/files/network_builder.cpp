@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "network/network_builder.hpp"
+#include "network/files/network_builder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "network/graph.hpp"
-#include "network/vtp/interface.hpp"
+#include "network/files/vtp/interface.hpp"
 
 namespace rhexis::network {
 

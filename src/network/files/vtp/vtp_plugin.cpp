@@ -20,8 +20,8 @@
 #include <filesystem>
 #include <new>
 
-#include "network/vtp/child_process.hpp"
-#include "network/vtp/interface.hpp"
+#include "network/files/vtp/child_process.hpp"
+#include "network/files/vtp/interface.hpp"
 
 namespace rhexis::network::vtp {
 namespace {
