@@ -51,7 +51,7 @@ class Lognormal {
   }
 
  private:
-  long double variance_, sigma_;  ///< of the logarithm
+  long double variance_, sigma_;  ///< moments of the logarithm
 };
 
 }  // namespace rhexis

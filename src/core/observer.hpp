@@ -8,7 +8,7 @@ namespace rhexis {
 struct Moment {
   long step = 0;
   double time_s = 0;
-  bool first = false;  ///< of this run, which may go on from a checkpoint
+  bool first = false;  ///< the first moment of this run, which may go on from a checkpoint
   bool last = false;   ///< no step follows, for whatever reason
   int signal = 0;      ///< that ends the run with this moment; 0: none
 };

@@ -121,7 +121,7 @@ struct Parameter {
   std::string default_in = {};            ///< unit in which the default is shown, e.g. "mm"; empty: `unit`
   std::string meaning = {};               ///< one sentence
   std::string source = {};                ///< paper and equation or table, where there is one
-  Range range = {};                       ///< of each number
+  Range range = {};                       ///< allowed range of each number
   std::vector<std::string> choices = {};  ///< allowed words of a text; empty: any, of an enum: all its names
   bool required = false;                  ///< has no default
   std::vector<Condition> only_with = {};  ///< the key has no effect unless one of them holds; none: always

@@ -85,7 +85,7 @@ class CoupledVessel {
     double time_s = 0;
     double schedule = 0;           ///< share of the network's pressures that acts now
     double opening = 0;            ///< m2
-    double resistance_factor = 1;  ///< of the deformed lumen
+    double resistance_factor = 1;  ///< flow resistance of the deformed lumen over that of the undeformed one
   };
   /// Solves the network anew around the vessel. Collective.
   void exchange(const Wall& wall);

@@ -29,8 +29,9 @@ namespace rhexis::hemodynamics {
 struct VesselMechanics {
   network::Wall artery_wall, vein_wall;
   network::WallVariation variation;
-  bool numbered_by_id = false;                 ///< a graph's vessels have the ids of a tree
-  std::span<const std::int64_t> numbers = {};  ///< of a graph's vessels in the whole, if it is a part of one
+  bool numbered_by_id = false;  ///< a graph's vessels have the ids of a tree
+  std::span<const std::int64_t> numbers =
+      {};  ///< numbers of a graph's vessels in the whole graph, if it is a part of one
   double young_modulus = 1, poisson_ratio = 0.25;
   Viscosity viscosity;
   Hydrostatic hydrostatic;

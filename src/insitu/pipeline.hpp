@@ -46,7 +46,7 @@ struct Settings {
   std::string image_directory;  ///< every extract of every script lands here; made with the first picture
   Renderer renderer = Renderer::automatic;
   std::vector<ChannelFields> channels;  ///< that the run has
-  double time_limit_s = 600;            ///< of one script at one step
+  double time_limit_s = 600;            ///< longest time that one script may take at one step
   std::string live;                     ///< host:port where ParaView listens (Catalyst Live); empty: nobody
   /// Called on every rank once a script's pictures of a step are written. What it throws, `process` throws.
   std::function<void(const std::string& script, long step)> after_script;

@@ -25,7 +25,7 @@ constexpr const char* format_name = "format";
 constexpr std::string_view format_prefix = "rhexis checkpoint ";
 constexpr const char* format_text = "rhexis checkpoint 6";
 constexpr const char* version_name = "program_version";
-constexpr const char* checksum_name = "checksum";  ///< of all other attributes
+constexpr const char* checksum_name = "checksum";  ///< attribute with the checksum of all other attributes
 
 std::string checksum_name_of(const std::string& dataset) {
   return "checksum_of_" + dataset;

@@ -66,7 +66,7 @@ class CheckpointWriter {
   void note_checksum(const std::string& name, std::uint64_t of_this_rank);
 
   std::filesystem::path path_, temporary_;
-  std::unique_ptr<TemporaryFile> file_;  ///< of the root
+  std::unique_ptr<TemporaryFile> file_;  ///< held by the root
   parallel::Communicator communicator_;
   CheckpointNumbers numbers_;
 };

@@ -74,7 +74,7 @@ class FieldSeries {
 
   std::vector<StoredField> fields_;
   std::set<long> planned_;                ///< steps that are still to come
-  std::size_t entries_ = 0;               ///< of the list
+  std::size_t entries_ = 0;               ///< entries of the list
   std::optional<std::size_t> unplanned_;  ///< which of them was not planned
   std::unique_ptr<SeriesFile> file_;
   /// The step that was written last, on its way to the disk; whether it was listed here then.

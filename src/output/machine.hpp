@@ -42,7 +42,7 @@ class EnergyMeter {
   };
   std::vector<Counter> counters_;
   double used_ = 0;   ///< uJ
-  std::mutex mutex_;  ///< of all above
+  std::mutex mutex_;  ///< guards all above
   std::condition_variable_any never_;
   std::jthread watcher_;  ///< where there are counters
 };

@@ -83,7 +83,7 @@ class ResultsFolder {
   ResultsFolder(std::shared_ptr<State> state, std::string prefix);
 
   std::shared_ptr<State> state_;
-  std::string prefix_;  ///< of names, empty or with a slash at its end
+  std::string prefix_;  ///< begins every name: empty or with a slash at its end
 };
 
 }  // namespace rhexis::output

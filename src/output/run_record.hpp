@@ -21,10 +21,10 @@ namespace rhexis::output {
 struct Provenance {
   std::string version = {}, commit = {};
   std::vector<std::string> command = {};        ///< as it was called
-  std::string file = {};                        ///< of input
+  std::string file = {};                        ///< path of the input file
   std::string started = {};                     ///< 2026-11-29T00:18:13Z
   std::optional<std::string> checkpoint = {};   ///< that the run goes on from
-  std::optional<std::int64_t> first_step = {};  ///< of that checkpoint
+  std::optional<std::int64_t> first_step = {};  ///< time step of that checkpoint
 };
 
 /// The status of a run that has not told its end.
@@ -66,13 +66,14 @@ class RunRecord {
   void write(const std::string& status);
   void end(const std::string& status, const Values& results, const Values& performance);
 
-  std::mutex mutex_;  ///< of all below
+  std::mutex mutex_;  ///< guards all below
   std::filesystem::path path_;
   std::unique_ptr<Values> document_;
   parallel::Communicator communicator_;
-  std::optional<FileIdentity> folder_;  ///< of the first rank
+  std::optional<FileIdentity> folder_;  ///< held by the first rank
   bool ended_ = false;
-  std::unique_ptr<SpareSpace> spare_;  ///< of the first rank: for the last words, should the disk be full
+  std::unique_ptr<SpareSpace>
+      spare_;  ///< held by the first rank: room for the last words, should the disk be full
 };
 
 }  // namespace rhexis::output

@@ -24,7 +24,7 @@ struct Place {
   std::string dataset;  ///< with its path
   int components = 1;
   Centring centring = Centring::point;
-  std::int64_t rows = 0;  ///< of the data set; 0: N
+  std::int64_t rows = 0;  ///< rows of the data set; 0: N
   std::int64_t first_row = 0;
   bool flat = false;  ///< components one after another, in a data set of one dimension
 };
@@ -68,7 +68,7 @@ class SeriesFile {
   SeriesLayout layout_;
   parallel::Communicator communicator_;
   std::unique_ptr<Hdf5File> file_;
-  std::optional<FileIdentity> identity_;  ///< of the root: somebody may take the file away
+  std::optional<FileIdentity> identity_;  ///< known to the root: somebody may take the file away
   std::vector<float> singles_;            ///< values on their way to the file, in the one precision
   std::vector<double> doubles_;           ///< or the other
 };

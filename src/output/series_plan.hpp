@@ -20,9 +20,9 @@ enum class SeriesFormat {
 /// What is to be stored, and where.
 struct SeriesPlan {
   std::filesystem::path directory;
-  std::string basename = "";  ///< of the files; empty: as the kind of series is usually called
+  std::string basename = "";  ///< base name of the files; empty: as the kind of series is usually called
   std::string title;
-  std::string version;                        ///< of the program
+  std::string version;                        ///< version of the program
   std::vector<FieldInfo> fields;              ///< besides positions, which are always stored
   std::vector<std::string> annotations = {};  ///< names of the numbers that go with every moment
   std::vector<long> steps;                    ///< that will be written

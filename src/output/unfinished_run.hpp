@@ -11,7 +11,7 @@ struct UnfinishedRun {
   enum class State { at_work, dead, unknown };  ///< unknown: on file systems without locks
   State state = State::unknown;
   std::filesystem::path last_checkpoint;  ///< empty where there is none
-  bool holds_samples = false;             ///< of an ensemble: there is nothing to restart from, nor a need to
+  bool holds_samples = false;  ///< the run was an ensemble: there is nothing to restart from, nor a need to
 };
 
 /// Looks for a run that wrote to `folder` last and has not told its end; nothing where there is none. Local

@@ -44,7 +44,7 @@ class XdmfSeries : public FieldSeries {
   SeriesKind kind_;
   std::string basename_;
   std::filesystem::path list_path_;
-  std::shared_ptr<XdmfList> list_;  ///< of the root, from the first step on
+  std::shared_ptr<XdmfList> list_;  ///< held by the root, from the first step on
 };
 
 }  // namespace rhexis::output

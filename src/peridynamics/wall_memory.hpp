@@ -14,7 +14,7 @@ namespace rhexis::peridynamics {
 /// How a wall is simulated, as far as memory depends on it.
 struct WallUse {
   int ranks = 1;         ///< among which one wall is dealt out
-  int threads = 1;       ///< of each
+  int threads = 1;       ///< threads of each rank
   bool outputs = true;   ///< fields are observed and written
   bool doubles = false;  ///< they are written in double precision
   bool checkpoints = false;

@@ -15,7 +15,7 @@ struct RunDescription {
   std::shared_ptr<const nlohmann::ordered_json> input;  ///< as resolved, for run.json
   PicturesPlan pictures = {};
   bool movie = false;
-  double frames_per_second = 0;  ///< of the movie
+  double frames_per_second = 0;  ///< frame rate of the movie
 };
 
 }  // namespace rhexis::runtime

@@ -205,7 +205,7 @@ class DistributedSolver final : public FlowSolver {
   parallel::Communicator comm_;
   VesselMechanics mechanics_;
   DistributedGraph part_;
-  std::int64_t junctions_ = 0;           ///< of the whole
+  std::int64_t junctions_ = 0;           ///< junctions of the whole network
   std::vector<std::int64_t> vessel_id_;  ///< [V] number in the whole
   std::vector<network::BoundaryCondition> conditions_;
   GraphFlow flow_;                     ///< with the weight of blood in its pressures

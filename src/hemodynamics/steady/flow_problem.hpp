@@ -21,7 +21,7 @@ struct FlowProblem {
   network::TreeRules tree = {};  ///< where network.source = "tree"
   Parameters blood = {};
   ToSi to_si = {};                           ///< reads the units of a network's files
-  std::vector<VesselFailure> failures = {};  ///< of a graph's vessels that have ruptured before
+  std::vector<VesselFailure> failures = {};  ///< vessels of a graph that have ruptured before
   bool is_tree() const { return network.is_tree(); }
   /// Whether a tree is held in memory as a graph.
   bool builds_tree() const { return is_tree() && network.resolved_tier() != network::Tier::implicit_tree; }

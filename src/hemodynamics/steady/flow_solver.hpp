@@ -62,7 +62,7 @@ struct NetworkFlow {
 
 /// What is stored and drawn of a network.
 struct NetworkDisplay {
-  VesselLines lines;       ///< of this rank
+  VesselLines lines;       ///< vessels that this rank shows
   std::int64_t shown = 0;  ///< vessels, of all ranks
   /// Along each axis (m), of all vessels; none without coordinates.
   std::optional<std::array<std::pair<double, double>, 3>> extent;
@@ -72,7 +72,7 @@ struct NetworkSolution {
   NetworkFlow flow;
   std::optional<TreeStatistics> statistics;
   std::vector<NetworkVessel> queries;  ///< the vessels of network.query
-  std::vector<VesselTableRow> table;   ///< of a graph that is small enough
+  std::vector<VesselTableRow> table;   ///< all vessels of a graph that is small enough
   NetworkDisplay display;
   std::vector<std::string> warnings;
 };

@@ -41,7 +41,7 @@ class RupturedNetwork {
   const std::vector<network::BoundaryCondition>& conditions() const { return conditions_; }
 
  private:
-  std::size_t junctions_, vessels_;  ///< of the intact graph
+  std::size_t junctions_, vessels_;  ///< counts of the intact graph
   network::Graph graph_;
   std::vector<double> conductance_;
   std::vector<network::BoundaryCondition> conditions_;

@@ -9,9 +9,9 @@ namespace rhexis::peridynamics {
 /// As real numbers, for walls beyond any machine are to be told of too.
 struct WallSize {
   double columns = 0, rows = 0;
-  double bonds = 0;       ///< of the families of all columns, as BondFamilies holds them
+  double bonds = 0;       ///< bonds in the families of all columns, as BondFamilies holds them
   double neighbours = 0;  ///< columns that a column has bonds with, the mean, itself among them
-  double rings = 0;       ///< of a polar cross-section, else 0
+  double rings = 0;       ///< rings of a polar cross-section, else 0
 
   double particles() const { return columns * rows; }
   double bonds_of_column() const { return bonds / (columns > 1 ? columns : 1); }

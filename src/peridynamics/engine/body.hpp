@@ -119,8 +119,8 @@ class Body {
   /// All that a restart needs.
   struct Saved {
     std::array<std::vector<double>, 3> displacement, leapfrog_velocity;  ///< m, m/s, of owned particles
-    std::vector<std::uint16_t> words;                                    ///< of bonds' bits, see word_table
-    bool first_kick_pending = false;  ///< velocities are at the same time as displacements
+    std::vector<std::uint16_t> words;  ///< bits of the bonds, see word_table
+    bool first_kick_pending = false;   ///< velocities are at the same time as displacements
     /// J, exact as two doubles (ExactSum::parts): the work done so far, and the energy of dilatation that
     /// breaking bonds released, 0 where the law has none.
     std::array<double, 2> external_work{}, released_energy{};

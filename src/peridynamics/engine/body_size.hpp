@@ -13,7 +13,7 @@ namespace rhexis::peridynamics {
 /// On all ranks together; as real numbers, for bodies beyond any machine are to be told of too.
 struct BodySize {
   double columns = 0, rows = 0;  ///< owned
-  double bonds = 0;              ///< of the families of owned columns
+  double bonds = 0;              ///< bonds in the families of owned columns
   double halo_columns = 0;
   int ranks = 1;
   bool heterogeneous = false;  ///< critical stretch or stiffness differs from place to place

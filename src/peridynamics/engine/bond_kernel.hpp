@@ -40,14 +40,14 @@ struct BondConstants {
   Real weight;  ///< w V_i V_j / (spacing^6 |xi|): force is c spacing^6 sum weight g(t) y, of either end
   Real volume;  ///< V_j / spacing^3
   Real energy_weight;   ///< w V_i V_j |xi| / spacing^6: energy is c spacing^7 energy_weight s^2/2
-  std::int32_t offset;  ///< of the partner in padded arrays, from the particle's own place
+  std::int32_t offset;  ///< where the partner stands in padded arrays, from the particle's own place
 };
 
 /// Bonds [first, past) of a family that are evaluated for this end only, or for both.
 struct BondRun {
   std::int32_t first, past;
   bool both;
-  int ends;  ///< of each bond that count here: 2 for forward bonds, whoever evaluates them, else 0
+  int ends;  ///< ends of a bond that count here: 2 for forward bonds, whoever evaluates them, else 0
 };
 
 /// A bond of a family that broke in some rows.

@@ -255,9 +255,10 @@ class BondStorage {
   const Domain* domain_;
   const BondFamilies* families_;
   const PlaceProperties<Real>* properties_;
-  std::vector<std::int64_t> first_bond_;  ///< of owned columns, into constants_
+  std::vector<std::int64_t> first_bond_;  ///< where each owned column begins in constants_
   std::vector<BondConstants<Real>> constants_;
-  std::vector<std::int32_t> opposite_;  ///< of constants_, -1 where the bond is not forward
+  std::vector<std::int32_t> opposite_;  ///< [constants_] place of the same bond seen from its other end, -1
+                                        ///< where the bond is not forward
   std::vector<std::uint16_t> intact_;
   std::vector<double> family_volume_;  ///< [owned particles] sum of V_j / spacing^3 of the initial bonds
   std::vector<char> changed_;          ///< [blocks]

@@ -166,13 +166,14 @@ class ColumnBody final : public Body {
   PlaceProperties<Real> properties_;
   BondStorage<Real> bonds_;
   BondDisplacement<Real> displacement_;
-  parallel::HaloExchange<Real> halo_;  ///< of displacement_
+  parallel::HaloExchange<Real> halo_;  ///< exchanges displacement_
   std::optional<Dilatation<Law, Real>> dilatation_;
   std::optional<KernelInput<Real>> kernel_input_;
   std::optional<BondForces<Law, Real>> forces_;
   WorkAccount work_;
   FractureEnergy<Law, Real> fracture_;
-  std::vector<std::pair<std::int64_t, std::int64_t>> free_rows_;  ///< of the whole body, along each axis
+  std::vector<std::pair<std::int64_t, std::int64_t>>
+      free_rows_;  ///< rows of the whole body that move freely along each axis
 
   std::array<std::vector<double>, 3> u_, v_;  ///< m; m/s at half a step back (see first_kick_pending_)
   bool first_kick_pending_ = true;            ///< v_ is at the same time as u_

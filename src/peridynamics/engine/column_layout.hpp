@@ -12,7 +12,7 @@ namespace rhexis::peridynamics {
 /// Particles are numbered id = column * rows + row. This rank has those of the columns [first_column,
 /// first_column + column_count) x rows [first_row, first_row + row_count), column after column.
 struct ColumnLayout {
-  std::int64_t columns = 0, rows = 0;  ///< of the whole body
+  std::int64_t columns = 0, rows = 0;  ///< extent of the whole body
   std::int64_t first_column = 0, column_count = 0;
   std::int64_t first_row = 0, row_count = 0;
 

@@ -109,7 +109,7 @@ class Dilatation {
   const Domain* domain_;
   KernelUnits units_;
   double weighted_volume_;                     ///< m of a whole family, in spacings^4
-  parallel::HaloExchange<Real> halo_;          ///< of the pressure
+  parallel::HaloExchange<Real> halo_;          ///< exchanges the pressure
   std::vector<Real> pressure_;                 ///< p, padded
   std::vector<double> theta_;                  ///< [owned particles]
   std::vector<RowBlock> interior_, boundary_;  ///< blocks that read no halo, and those that do

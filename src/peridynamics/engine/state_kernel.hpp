@@ -11,7 +11,7 @@ namespace rhexis::peridynamics {
 template <class Real>
 struct ExtensionSums {
   alignas(64) Real intact[parallel::block_rows];
-  alignas(64) Real lost[parallel::block_rows];  ///< of bonds that broke now
+  alignas(64) Real lost[parallel::block_rows];  ///< what bonds that broke in this step have lost
   int broken = 0;                               ///< directed bonds that broke now
 };
 

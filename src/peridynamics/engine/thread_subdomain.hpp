@@ -108,9 +108,9 @@ class ThreadSubdomain : public SubdomainExtent {
   }
 
   const Domain* domain_;
-  std::int64_t first_bond_;             ///< of first_slot, in the storage
-  std::vector<BondRun> runs_;           ///< of each column: backward_run, then forward_runs
-  std::vector<std::size_t> first_run_;  ///< of each column, into runs_
+  std::int64_t first_bond_;             ///< place of first_slot in the storage
+  std::vector<BondRun> runs_;           ///< each column's backward_run, then its forward_runs
+  std::vector<std::size_t> first_run_;  ///< where each column begins in runs_
   std::array<hwy::AlignedFreeUniquePtr<Real[]>, 4> sums_;  ///< each column as in padded arrays
   std::array<std::vector<std::uint16_t>, 2> words_beyond_;
 };

@@ -48,8 +48,8 @@ class OpeningGauge {
   ThinSpots thin_spots_;
   double row_spacing_, radius_quantum_;
   std::vector<double> intact_gap_;      ///< rad, widest in each row of the reference state
-  std::size_t bins_;                    ///< of angle, per row
-  std::size_t sectors_;                 ///< of the cross-section, each with columns in it
+  std::size_t bins_;                    ///< bins of angle in a row
+  std::size_t sectors_;                 ///< sectors of the cross-section, each with columns in it
   std::vector<std::size_t> sector_of_;  ///< [columns]
 };
 

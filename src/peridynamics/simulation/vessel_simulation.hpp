@@ -31,10 +31,11 @@ struct RuptureEvents {
 
 /// How the load answers to the wall.
 struct LoadState {
-  double share = 1, next_share = 1;  ///< of the scheduled pressure, at t_n and t_{n+1}
+  double share = 1, next_share = 1;  ///< fraction of the scheduled pressure that acts, at t_n and t_{n+1}
   double least_share = 1;            ///< so far, by venting
   double open_area = 0;              ///< m2, as last measured
-  double resistance_factor = 1;      ///< of the deformed lumen, as last measured
+  double resistance_factor =
+      1;  ///< flow resistance of the deformed lumen over that of the undeformed one, as last measured
 };
 
 class VesselSimulation {

@@ -244,7 +244,8 @@ class CascadeRun {
   parallel::Communicator comm_;
   Results results_;
   runtime::RunSession session_;
-  studies::CascadeState state_;  ///< of the first rank; elsewhere without what only that knows of vessels
+  studies::CascadeState
+      state_;  ///< complete on the first rank; elsewhere without what only that rank knows of vessels
   std::optional<NetworkCoupling> network_;
   VesselScene next_;  ///< the event after those so far
   bool restarts_within_event_ = false;

@@ -261,7 +261,7 @@ class EnsembleRun {
   int signal_ = 0;                           ///< that ended it
   std::size_t earlier_ = 0;                  ///< samples that an earlier run had done
   double sample_s_ = 0;                      ///< spent in samples by this rank
-  std::optional<double> seconds_each_ = {};  ///< of a sample on one rank; none: no sample was simulated
+  std::optional<double> seconds_each_ = {};  ///< time of a sample on one rank; none: no sample was simulated
   std::int64_t bond_evaluations_ = 0;
 };
 

@@ -13,7 +13,7 @@ struct EnsembleScene : SceneInput {
   ensemble::Parameters ensemble;
   peridynamics::Parameters vessel;  ///< the mean one, as read
 
-  peridynamics::SharedWall wall;  ///< of the mean vessel
+  peridynamics::SharedWall wall;  ///< wall of the mean vessel
 };
 
 ParameterList declare(EnsembleScene& s);

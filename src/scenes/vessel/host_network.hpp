@@ -42,7 +42,7 @@ class HostNetwork {
 
   /// The network as it is shown at a moment.
   virtual LineSource& lines(long step, double time_s) = 0;
-  virtual std::optional<double> flop() const = 0;  ///< of its flow, where they are counted
+  virtual std::optional<double> flop() const = 0;  ///< operations that its flow took, where they are counted
   virtual nlohmann::ordered_json network_record() const = 0;
   virtual nlohmann::ordered_json results() const = 0;
   virtual void print_header(runtime::Console& console, double time_step) const = 0;

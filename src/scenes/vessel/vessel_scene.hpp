@@ -16,7 +16,7 @@ struct VesselScene : SceneInput {
   runtime::PicturesPlan pictures;
 
   peridynamics::SharedWall wall = {};   ///< what `vessel` is resolved to
-  std::vector<long> output_steps = {};  ///< of the wall's time steps
+  std::vector<long> output_steps = {};  ///< numbers of the time steps that are stored
 };
 
 ParameterList declare(VesselScene& s);

@@ -18,7 +18,7 @@ namespace rhexis::studies {
 /// One vessel that was simulated. What followed is known once the network has been solved with what it left.
 struct CascadeEvent {
   hemodynamics::NetworkVessel vessel;
-  double risk = 0;          ///< of that vessel (studies/screening/screening.hpp)
+  double risk = 0;          ///< risk of that vessel (studies/screening/screening.hpp)
   double net_pressure = 0;  ///< Pa, the largest on the intact wall
   /// Whether the wall ruptured; none where an interrupt ended the event before it did.
   std::optional<bool> ruptured = {};
@@ -32,10 +32,11 @@ struct CascadeEvent {
 
 struct CascadeState {
   std::vector<CascadeEvent> events;
-  std::vector<hemodynamics::VesselFailure> failures;  ///< of the vessels that ruptured
+  std::vector<hemodynamics::VesselFailure>
+      failures;                          ///< the vessels that ruptured, in the order in which they did
   std::vector<std::uint32_t> simulated;  ///< numbers of the vessels, whether they ruptured or held
   double elapsed = 0;                    ///< s, simulated in all events
-  std::int64_t steps_before = 0;         ///< of all events, for the numbers of pictures
+  std::int64_t steps_before = 0;         ///< time steps of all earlier events, for the numbers of pictures
 
   /// Takes up an event that simulated `seconds` in `steps`, and what it left of the network, where its vessel
   /// ruptured.

@@ -38,7 +38,7 @@ class NetworkScreening final : public hemodynamics::VesselVisitor {
   std::vector<std::uint32_t> left_out_;
   std::optional<network::TreePair> tree_;
   network::WallVariation variation_;
-  std::optional<TreeScreening> of_tree_;  ///< of a tree that streams by
+  std::optional<TreeScreening> of_tree_;  ///< screens a tree that streams by
   std::optional<RiskTally> of_graph_;     ///< on the rank that holds the graph
 };
 

@@ -24,7 +24,7 @@ struct Boundary {
     double pressure;
   };
   struct Ghost {
-    std::uint32_t junction;  ///< of the graph
+    std::uint32_t junction;  ///< number in the graph
     double pressure, conductance;
   };
   struct Inflow {

@@ -27,7 +27,7 @@ struct CorePart {
 };
 
 struct CorePartSolution {
-  std::vector<double> flow, pressure;  ///< of the part's vessels and junctions
+  std::vector<double> flow, pressure;  ///< in the part's vessels and at its junctions
   GraphSolver solver = GraphSolver::automatic;
   std::int64_t iterations = 0, core_junctions = 0;
 };

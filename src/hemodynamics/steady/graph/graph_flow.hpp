@@ -29,7 +29,7 @@ constexpr auto name_table(GraphSolver) {
 struct GraphSolverOptions {
   GraphSolver solver = GraphSolver::automatic;
   double imbalance = 1e-10;             ///< stop: worst junction's imbalance relative to the inflow
-  std::int64_t max_iterations = 20000;  ///< of an iterative solver, in all
+  std::int64_t max_iterations = 20000;  ///< allowed to an iterative solver, in all
 };
 
 struct GraphFlow {
@@ -37,9 +37,9 @@ struct GraphFlow {
       pressure;  ///< [J] relative to atmosphere, Pa; nan at a junction without vessels and condition
   std::vector<double> flow;  ///< [V] m3/s, positive along from -> to
   double inflow = 0;         ///< m3/s, sum of all flows into the network through its conditions
-  double max_imbalance = 0;  ///< of any junction, relative to `inflow`
+  double max_imbalance = 0;  ///< the largest at any junction, relative to `inflow`
   GraphSolver solver = GraphSolver::automatic;  ///< that was used
-  std::int64_t iterations = 0;                  ///< of an iterative solver, in all
+  std::int64_t iterations = 0;                  ///< taken by an iterative solver, in all
   std::int64_t core_junctions = 0;              ///< unknowns left after reduction
 };
 

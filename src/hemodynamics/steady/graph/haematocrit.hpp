@@ -20,7 +20,7 @@
 namespace rhexis::hemodynamics {
 
 struct HaematocritOptions {
-  double inflow_haematocrit = 0.45;  ///< of all blood that enters
+  double inflow_haematocrit = 0.45;  ///< discharge haematocrit of all blood that enters
   double tolerance = 1e-8;           ///< largest change of a vessel's haematocrit in a full step
   std::int64_t max_iterations = 200;
 };

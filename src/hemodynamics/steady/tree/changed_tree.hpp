@@ -48,7 +48,7 @@ class ChangedTree {
   struct Place {
     std::uint64_t place;
     double artery, vein;  ///< resistances, Pa s/m3
-    double below;         ///< of what hangs below and is not on a way; 0: nothing
+    double below;         ///< resistance of what hangs below and is not on a way; 0: nothing
   };
   const TreeFlow& flow_;
   std::vector<std::uint64_t> vessels_;

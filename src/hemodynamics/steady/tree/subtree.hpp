@@ -23,7 +23,7 @@ namespace rhexis::hemodynamics {
 
 /// What a subtree gets from above.
 struct SubtreeState {
-  std::uint64_t place = 1;  ///< of its root, in the whole tree
+  std::uint64_t place = 1;  ///< place of its root in the whole tree
   double capacity = 1;
   double flow = 0;             ///< m3/s
   double artery_pressure = 0;  ///< at the near end of its first artery, Pa
@@ -38,8 +38,8 @@ struct VesselBlock {
   std::uint64_t first_place = 0;
   std::size_t count = 0;
   double multiplicity = 1;
-  const double* radius = nullptr;       ///< of the artery, m; the vein's is vein_radius_ratio times that
-  const double* length = nullptr;       ///< of both, m
+  const double* radius = nullptr;       ///< artery's radius, m; the vein's is vein_radius_ratio times that
+  const double* length = nullptr;       ///< length of artery and vein each, m
   const double* flow = nullptr;         ///< through both, m3/s
   const double* artery_near = nullptr;  ///< pressures, Pa: at the end next to the root,
   const double* artery_far = nullptr;   ///< at the end next to the midplane,
@@ -95,7 +95,7 @@ class Subtree {
   int depth_;
   bool open_;
   std::uint64_t place_ = 1;
-  int generation_ = 0;  ///< of the subtree's root
+  int generation_ = 0;  ///< generation of the subtree's root
   hwy::AlignedFreeUniquePtr<double[]> memory_;
   double *capacity_, *artery_, *vein_, *below_, *flow_;
   double *artery_near_, *artery_far_, *vein_near_, *vein_far_;

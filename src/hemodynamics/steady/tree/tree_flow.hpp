@@ -98,9 +98,10 @@ class TreeFlow {
 
   /// Resistances that the way from the root to `place` meets, for re-solving it when something on it changes.
   struct Path {
-    std::vector<double> artery, vein;  ///< of the vessels on the way, root first, Pa s/m3
-    std::vector<double> beside;        ///< of the subtree pair that branches off below each but the last
-    double below = 0;                  ///< of what hangs below the last; 0 in the last generation
+    std::vector<double> artery, vein;  ///< resistances of the vessels on the way, root first, Pa s/m3
+    std::vector<double>
+        beside;        ///< resistance of the subtree pair that branches off below each but the last, Pa s/m3
+    double below = 0;  ///< resistance of what hangs below the last, Pa s/m3; 0 in the last generation
   };
   /// Collective.
   Path path_to(std::uint64_t place) const;
@@ -127,7 +128,7 @@ class TreeFlow {
   parallel::Communicator comm_;
   bool alike_;
   int top_depth_ = 0, middle_depth_ = 0, bottom_depth_ = 0;
-  std::size_t first_branch_ = 0, past_branch_ = 0;  ///< of this rank
+  std::size_t first_branch_ = 0, past_branch_ = 0;  ///< branches of this rank
   std::unique_ptr<Subtree> top_;
   std::vector<double> bottom_resistance_;  ///< [own branches][2^middle_depth]
   std::vector<double> alike_below_;        ///< [k] resistance of a subtree pair from a generation on

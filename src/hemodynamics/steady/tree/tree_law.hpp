@@ -31,7 +31,7 @@ struct TreeLaw {
 
   std::uint64_t seed;
   bool random_splits, random_lengths;
-  double least_offset, offset_range;  ///< of the wider daughter's share above 1/2
+  double least_offset, offset_range;  ///< range of the wider daughter's share above 1/2
   double length_spread;
 };
 

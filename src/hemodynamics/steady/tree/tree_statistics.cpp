@@ -96,9 +96,9 @@ struct Context {
   double vein_ratio = 1;
   bool stress_by_radius[2]{};
   double stress_factor[2]{};                          ///< where it does not depend on the radius
-  network::IntervalTable stress_table[2];             ///< of the artery's radius
-  double narrow_radius[2]{};                          ///< of the artery
-  std::vector<std::array<double, quantities>> scale;  ///< of sums, by generation
+  network::IntervalTable stress_table[2];             ///< hoop stress by the artery's radius, artery and vein
+  double narrow_radius[2]{};                          ///< artery's radius below which the table ends
+  std::vector<std::array<double, quantities>> scale;  ///< scale of the sums, by generation
 };
 
 struct GenerationGatherer {

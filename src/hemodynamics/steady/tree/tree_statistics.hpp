@@ -23,7 +23,7 @@ struct Spread {
 /// What is known of one generation; index 0 for arteries, 1 for veins.
 struct GenerationStatistics {
   int generation = 0;
-  double vessels = 0;  ///< of each kind
+  double vessels = 0;  ///< vessels of each kind
   std::array<Spread, 2> radius, pressure, hoop_stress;
   std::array<double, 2> volume{}, surface{};  ///< m3, m2 of lumen
   double mean_length = 0;                     ///< m
