@@ -23,8 +23,8 @@ NetworkFormat format_of(const std::vector<std::string>& files) {
   throw InputError("name one .json or .vtp file, or two .csv files: first junctions, then vessels");
 }
 
-BoundedGraph read_network(const std::vector<std::string>& files, const std::string& vtp_length_unit,
-                          const ToSi& to_si) {
+BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
+  const std::vector<std::string>& files = parameters.files;
   switch (format_of(files)) {
     case NetworkFormat::csv:
       return read_csv_network(files[0], files[1], to_si);
@@ -33,7 +33,7 @@ BoundedGraph read_network(const std::vector<std::string>& files, const std::stri
     case NetworkFormat::vtp:
       break;
   }
-  return read_vtp_network(files[0], to_si("1 " + vtp_length_unit, "m"));
+  return read_vtp_network(files[0], to_si("1 " + parameters.file_length_unit, "m"));
 }
 
 }  // namespace rhexis::network

@@ -19,8 +19,9 @@
 #include <string>
 #include <vector>
 
-#include "network/graph.hpp"
 #include "network/files/network_builder.hpp"
+#include "network/graph.hpp"
+#include "network/parameters.hpp"
 
 namespace rhexis::network {
 
@@ -34,9 +35,9 @@ enum class NetworkFormat { csv, json, vtp };
 /// By number and extensions of the files. Throws InputError where they are no network's.
 NetworkFormat format_of(const std::vector<std::string>& files);
 
-/// `vtp_length_unit`: of lengths in a VTP file, e.g. "mm".
-BoundedGraph read_network(const std::vector<std::string>& files, const std::string& vtp_length_unit,
-                          const ToSi& to_si);
+/// The network of `parameters.files`, as the solvers take it: read, then repaired as the keys of [network]
+/// ask for. The one way in from a user's files. Throws InputError.
+BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si);
 
 /// The whole text of a file; throws InputError where it cannot be read or is empty.
 std::string read_network_text(const std::filesystem::path& file);

@@ -196,7 +196,9 @@ TEST_F(NetworkFiles, JsonMistakes) {
 TEST_F(NetworkFiles, KindsOfFiles) {
   for (const std::vector<std::string>& files :
        {std::vector<std::string>{"a.csv"}, {"a.json", "b.json"}, {"a.txt"}, {"a.csv", "b.csv", "c.csv"}}) {
-    refused([&] { read_network(files, "m", to_si); }, {".json or .vtp", "two .csv"});
+    Parameters parameters;
+    parameters.files = files;
+    refused([&] { read_network(parameters, to_si); }, {".json or .vtp", "two .csv"});
   }
 }
 

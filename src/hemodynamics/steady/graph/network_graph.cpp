@@ -33,7 +33,7 @@ network::BoundedGraph make_graph_network(const FlowProblem& problem, const Hydro
                       static_cast<std::uint32_t>(std::uint64_t{1} << problem.tree.generations));
     return network;
   }
-  network = network::read_network(problem.network.files, problem.network.file_length_unit, problem.to_si);
+  network = network::read_network(problem.network, problem.to_si);
   const Graph& g = network.graph;
   if (!hydrostatic.acts()) return network;
   if (g.x.empty())
