@@ -10,6 +10,7 @@
 #include "hemodynamics/steady/tree/tree_statistics.hpp"
 #include "network/tree/tree_pair.hpp"
 #include "runtime/console.hpp"
+#include "scenes/network/network_report.hpp"
 
 namespace rhexis::app {
 namespace {
@@ -44,7 +45,8 @@ void check(const scenes::NetworkScene& s, const scenes::Reading& reading) {
   runtime::Console console(comm.is_root(), false);
   console.line(s.file + " is valid.");
   for (const std::string& warning : s.warnings) console.warning(warning);
-  console.item("network", solver->description());
+  for (const std::string& warning : scenes::warnings_of(*solver)) console.warning(warning);
+  scenes::print_source(console, *solver);
   if (!problem.network.is_tree()) return;
   const network::TreePair tree(problem.tree);
   const auto vessels = static_cast<double>(tree.vessels());

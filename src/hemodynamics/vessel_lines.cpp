@@ -49,8 +49,7 @@ network::WallFactors wall_factors(const network::Graph& graph, std::size_t vesse
 
 double wall_thickness(const network::Graph& graph, std::size_t vessel, const VesselMechanics& mechanics) {
   const double factor = wall_factors(graph, vessel, mechanics).thickness;
-  if (!graph.wall_thickness.empty() && graph.wall_thickness[vessel] > 0)
-    return factor * graph.wall_thickness[vessel];
+  if (graph.knows_wall(vessel)) return factor * graph.wall_thickness[vessel];
   const VesselKind kind = graph.kind.empty() ? VesselKind::unknown : graph.kind[vessel];
   const double radius = graph.radius[vessel];
   return factor * radius * wall_of(mechanics, kind).relative_thickness(radius);

@@ -35,6 +35,8 @@ struct Graph {
   std::vector<std::string> vessel_name;    ///< [V] as in the user's file; optional: the index is the name
 
   std::size_t vessels() const { return from.size(); }
+  /// Whether the thickness of a vessel's wall is given; else the wall rule assumes it.
+  bool knows_wall(std::size_t v) const { return !wall_thickness.empty() && wall_thickness[v] > 0; }
   std::string name_of_junction(std::size_t j) const;
   std::string name_of_vessel(std::size_t v) const;
 };

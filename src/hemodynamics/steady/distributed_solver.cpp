@@ -42,6 +42,8 @@ class DistributedSolver final : public FlowSolver {
 
   std::int64_t vessels() const override { return total(static_cast<std::int64_t>(part_.local.vessels())); }
 
+  const network::NetworkSurvey* survey() const override { return survey_ ? &*survey_ : nullptr; }
+
   std::int64_t find(const std::string&, const std::string& key) const override {
     throw InputError("vessels are found by name with network.tier = \"implicit\" or \"explicit\"", key);
   }
@@ -64,6 +66,7 @@ class DistributedSolver final : public FlowSolver {
       s.queries.push_back(vessel(queried_[i]));
       s.queries.back().name = problem_.network.query[i];
     }
+    s.survey = survey_;
     show(s);
     return s;
   }
@@ -114,6 +117,7 @@ class DistributedSolver final : public FlowSolver {
   void take_slice_of_file() {
     const network::BoundedGraph whole = make_graph_network(problem_, mechanics_.hydrostatic);
     check_flow_problem(whole.graph, whole.conditions, problem_.blood.graph_solver);
+    if (comm_.is_root()) survey_ = network::survey_of(whole);
     for (const std::string& name : problem_.network.query)
       queried_.push_back(find_vessel(problem_, whole.graph, name, "network.query"));
     const auto share = [&](int r) {
@@ -205,8 +209,9 @@ class DistributedSolver final : public FlowSolver {
   parallel::Communicator comm_;
   VesselMechanics mechanics_;
   DistributedGraph part_;
-  std::int64_t junctions_ = 0;           ///< junctions of the whole network
-  std::vector<std::int64_t> vessel_id_;  ///< [V] number in the whole
+  std::optional<network::NetworkSurvey> survey_;  ///< of a network from files, on the first rank
+  std::int64_t junctions_ = 0;                    ///< junctions of the whole network
+  std::vector<std::int64_t> vessel_id_;           ///< [V] number in the whole
   std::vector<network::BoundaryCondition> conditions_;
   GraphFlow flow_;                     ///< with the weight of blood in its pressures
   std::vector<std::int64_t> queried_;  ///< numbers in the whole

@@ -47,8 +47,9 @@ class ExplicitSolver final : public FlowSolver {
       within_memory("the network", !problem_.is_tree() ? "network.files" : "tree.generations", [&] {
         network_ = make_graph_network(problem_, mechanics_.hydrostatic);
         // A tree is connected by its making.
-        if (!problem_.is_tree())
-          check_flow_problem(network_.graph, network_.conditions, problem_.blood.graph_solver);
+        if (problem_.is_tree()) return;
+        check_flow_problem(network_.graph, network_.conditions, problem_.blood.graph_solver);
+        survey_ = network::survey_of(network_);
       });
       for (const std::string& name : problem_.network.query)
         queried_.push_back(find_vessel(problem_, network_.graph, name, "network.query"));
@@ -59,6 +60,8 @@ class ExplicitSolver final : public FlowSolver {
   std::int64_t vessels() const override {
     return comm_.broadcast(static_cast<std::int64_t>(network_.graph.vessels()));
   }
+
+  const network::NetworkSurvey* survey() const override { return survey_ ? &*survey_ : nullptr; }
 
   std::int64_t find(const std::string& name, const std::string& key) const override {
     std::int64_t number = 0;
@@ -121,6 +124,7 @@ class ExplicitSolver final : public FlowSolver {
     }
     if (visitor != nullptr) visitor->visit(graph, flow_, mechanics_);
     if (graph.vessels() <= longest_table) s.table = table();
+    s.survey = survey_;
     show(s);
   }
 
@@ -207,7 +211,8 @@ class ExplicitSolver final : public FlowSolver {
   parallel::Communicator comm_;
   VesselMechanics mechanics_;
   network::BoundedGraph network_;
-  std::vector<double> haematocrit_;  ///< [V], with phase separation
+  std::optional<network::NetworkSurvey> survey_;  ///< of a network from files
+  std::vector<double> haematocrit_;               ///< [V], with phase separation
   std::vector<std::uint32_t> queried_;
   GraphFlow flow_;  ///< with the weight of blood in its pressures
   std::optional<RupturedNetwork> ruptured_;

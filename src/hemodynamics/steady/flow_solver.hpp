@@ -16,6 +16,7 @@
 #include "hemodynamics/steady/tree/tree_statistics.hpp"
 #include "hemodynamics/steady/vessel_in_network.hpp"
 #include "hemodynamics/vessel_lines.hpp"
+#include "network/survey/network_survey.hpp"
 #include "parallel/communicator.hpp"
 
 namespace rhexis::hemodynamics {
@@ -74,6 +75,7 @@ struct NetworkSolution {
   std::vector<NetworkVessel> queries;  ///< the vessels of network.query
   std::vector<VesselTableRow> table;   ///< all vessels of a graph that is small enough
   NetworkDisplay display;
+  std::optional<network::NetworkSurvey> survey;  ///< of a network from files, on the first rank
   std::vector<std::string> warnings;
 };
 
@@ -104,6 +106,8 @@ class FlowSolver {
   virtual void prepare() = 0;
   /// How many vessels the prepared network has. Collective.
   virtual std::int64_t vessels() const = 0;
+  /// What the prepared network is like. Null where it is a tree, and on ranks other than the first.
+  virtual const network::NetworkSurvey* survey() const { return nullptr; }
   /// The vessel of a name in a file, of an id or path in a tree. Throws InputError, of `key`, where there is
   /// none. Collective.
   virtual std::int64_t find(const std::string& name, const std::string& key) const = 0;

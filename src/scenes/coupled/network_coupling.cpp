@@ -11,6 +11,7 @@
 #include "core/stopwatch.hpp"
 #include "coupling/network_load.hpp"
 #include "coupling/turbulence_observer.hpp"
+#include "scenes/network/network_report.hpp"
 #include "studies/flow/network_record.hpp"
 
 namespace rhexis::scenes {
@@ -34,7 +35,12 @@ NetworkCoupling::NetworkCoupling(const CoupledScene& scene, const studies::Casca
   if (cascade_ != nullptr) problem_.failures = cascade_->failures;
   solver_ = with_place(scene_, [&] { return hemodynamics::prepared_solver(problem_, reading_.comm); });
   find_named_vessel();
-  console.item("network", solver_->description());
+  if (problem_.failures.empty()) {
+    print_source(console, *solver_);
+    append(scene_.warnings, warnings_of(*solver_));
+  } else {
+    console.item("network", solver_->description());
+  }
   network_ = studies::solve_network(
       *solver_, problem_, screening_, [&](const std::string& text) { console.line(text); }, reading_.comm);
   append(scene_.warnings, network_.solution.warnings);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/format.hpp"
+#include "network/survey/survey_text.hpp"
 
 namespace rhexis::scenes {
 namespace {
@@ -41,9 +42,19 @@ void print_screening(runtime::Console& console, const studies::SolvedNetwork& ne
 
 }  // namespace
 
+void print_source(runtime::Console& console, const hemodynamics::FlowSolver& solver) {
+  console.item("network", solver.description());
+  if (solver.survey() == nullptr) return;
+  for (const auto& [label, text] : network::survey_lines(*solver.survey())) console.item(label, text);
+}
+
+std::vector<std::string> warnings_of(const hemodynamics::FlowSolver& solver) {
+  return solver.survey() == nullptr ? std::vector<std::string>{} : network::survey_warnings(*solver.survey());
+}
+
 void print_network(runtime::Console& console, const hemodynamics::FlowSolver& solver,
                    const hemodynamics::Parameters& h) {
-  console.item("network", solver.description());
+  print_source(console, solver);
   console.item("blood", h.viscosity.law == hemodynamics::ViscosityLaw::constant
                             ? fmt::format("viscosity {}", quantity(h.viscosity.constant, "Pa s"))
                             : fmt::format("viscosity by diameter ({}), plasma {}, haematocrit {}{}",

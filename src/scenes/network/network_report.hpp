@@ -2,11 +2,19 @@
 /// What a network's run says of itself at the terminal.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "hemodynamics/steady/flow_solver.hpp"
 #include "runtime/console.hpp"
 #include "studies/flow/solved_network.hpp"
 
 namespace rhexis::scenes {
+
+/// The network with its survey, before anything is solved.
+void print_source(runtime::Console& console, const hemodynamics::FlowSolver& solver);
+/// What the survey of the network warns of; nothing of a tree.
+std::vector<std::string> warnings_of(const hemodynamics::FlowSolver& solver);
 
 /// Network and blood, before the flow is solved.
 void print_network(runtime::Console& console, const hemodynamics::FlowSolver& solver,

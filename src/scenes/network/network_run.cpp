@@ -49,6 +49,7 @@ class NetworkRun {
   void print_header() {
     session_.print_title();
     session_.warn(scene_.warnings);
+    session_.warn(warnings_of(*solver_));
     print_network(session_.console(), *solver_, scene_.network.problem.blood);
     session_.print_surroundings();
   }

@@ -23,6 +23,25 @@ Json screening_record(const screening::ScreenedNetwork& screened) {
           {"top", std::move(list)}};
 }
 
+Json range_record(const network::MeasureRange& range) {
+  return {range.least, range.largest};
+}
+
+Json survey_record(const network::NetworkSurvey& s) {
+  return {{"parts", s.parts},
+          {"loops", s.loops},
+          {"conditions", s.conditions},
+          {"ends", s.ends},
+          {"ends_without_condition", s.open_ends.count},
+          {"junctions_without_vessels", s.isolated.count},
+          {"parts_without_flow", s.parts_with_one_opening.count},
+          {"vessels_without_flow", s.without_flow()},
+          {"assumed_walls", s.assumed_walls.count},
+          {"radius_m", range_record(s.radius)},
+          {"length_m", range_record(s.length)},
+          {"notes", s.notes}};
+}
+
 }  // namespace
 
 Json to_json(const hemodynamics::NetworkVessel& v) {
@@ -46,9 +65,9 @@ Json to_json(const hemodynamics::NetworkVessel& v) {
 
 Json network_record(const SolvedNetwork* network) {
   Json json = Json::object();
-  for (const char* name :
-       {"vessels", "junctions", "inflow_m3_s", "max_imbalance", "volume_m3", "surface_m2", "highest_reynolds",
-        "highest_pressure_Pa", "lowest_pressure_Pa", "solver", "iterations", "queries", "screening"})
+  for (const char* name : {"vessels", "junctions", "inflow_m3_s", "max_imbalance", "volume_m3", "surface_m2",
+                           "highest_reynolds", "highest_pressure_Pa", "lowest_pressure_Pa", "solver",
+                           "iterations", "queries", "screening", "survey"})
     json[name] = nullptr;
   if (network == nullptr) return json;
   const hemodynamics::NetworkFlow& flow = network->flow();
@@ -67,6 +86,7 @@ Json network_record(const SolvedNetwork* network) {
   for (const hemodynamics::NetworkVessel& v : network->solution.queries)
     json["queries"].push_back(to_json(v));
   if (network->screened) json["screening"] = screening_record(*network->screened);
+  if (network->solution.survey) json["survey"] = survey_record(*network->solution.survey);
   return json;
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hemodynamics/steady/graph/boundary.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "network/connectivity.hpp"
 
 namespace rhexis::hemodynamics {
 
@@ -80,18 +79,7 @@ std::vector<bool> junctions_with_vessels(const network::Graph& graph) {
 }
 
 std::string name_of_first(const network::Graph& graph, std::uint32_t junction) {
-  std::vector<std::uint32_t> parent(graph.junctions);
-  for (std::uint32_t j = 0; j < parent.size(); ++j) parent[j] = j;
-  const auto root = [&](std::uint32_t j) {
-    while (parent[j] != j) j = parent[j] = parent[parent[j]];
-    return j;
-  };
-  for (std::size_t v = 0; v < graph.vessels(); ++v) {
-    // The smaller number leads.
-    const auto [low, high] = std::minmax({root(graph.from[v]), root(graph.to[v])});
-    parent[high] = low;
-  }
-  return graph.name_of_junction(root(junction));
+  return graph.name_of_junction(network::first_of_part(graph)[junction]);
 }
 
 void throw_floating(const std::string& junction) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "hemodynamics/steady/graph/core_solve.hpp"
 #include "hemodynamics/steady/graph/reducible.hpp"
 #include "hemodynamics/steady/graph/reduction.hpp"
+#include "network/connectivity.hpp"
 
 namespace rhexis::hemodynamics {
 namespace {
@@ -112,22 +112,12 @@ void check_flow_problem(const network::Graph& graph, std::span<const network::Bo
                         const GraphSolverOptions& options) {
   const std::vector<bool> connected = junctions_with_vessels(graph);
   const Boundary boundary = checked_boundary(graph, conditions, connected);
-  // Every junction points towards the representative of its component, the one of the lowest number.
-  std::vector<std::uint32_t> towards(graph.junctions);
-  std::iota(towards.begin(), towards.end(), 0u);
-  const auto representative = [&](std::uint32_t j) {
-    while (towards[j] != j) j = towards[j] = towards[towards[j]];
-    return j;
-  };
-  for (std::size_t v = 0; v < graph.vessels(); ++v) {
-    const std::uint32_t a = representative(graph.from[v]), b = representative(graph.to[v]);
-    towards[std::max(a, b)] = std::min(a, b);
-  }
+  const std::vector<std::uint32_t> part = network::first_of_part(graph);
   std::vector<bool> held(graph.junctions);
-  for (const auto& fixed : boundary.fixed) held[representative(fixed.junction)] = true;
-  for (const auto& ghost : boundary.ghosts) held[representative(ghost.junction)] = true;
+  for (const auto& fixed : boundary.fixed) held[part[fixed.junction]] = true;
+  for (const auto& ghost : boundary.ghosts) held[part[ghost.junction]] = true;
   for (std::uint32_t j = 0; j < graph.junctions; ++j) {
-    if (connected[j] && !held[representative(j)]) throw_floating(name_of_first(graph, j));
+    if (connected[j] && !held[part[j]]) throw_floating(graph.name_of_junction(part[j]));
   }
   if (options.solver != GraphSolver::elimination) return;
   // What is left does not depend on the conductances.
