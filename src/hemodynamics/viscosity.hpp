@@ -10,7 +10,11 @@
 ///   W = (D / (D - 1.1))^2, infinite at D = 1.1 um
 ///   (Pries, Secomb, Gessner et al. 1994, Circ Res 75:904, doi:10.1161/01.RES.75.5.904)
 ///
-/// Neither law was measured below about 3 um. A vessel narrower than `least_diameter` gets the value there.
+/// Red cells of other species are of another size: D is the lumen's diameter times the cube root of 92 fl
+/// over the mean cell volume; 92 fl is that of man, about 55 fl that of rats (as in Secomb's program
+/// NetFlow).
+///
+/// Neither law was measured below about 3 um. Where D is below `least_diameter`, the value there is taken.
 #pragma once
 
 #include <cmath>
@@ -27,12 +31,22 @@ constexpr auto name_table(ViscosityLaw) {
       {{constant, "constant"}, {in_vitro, "in_vitro"}, {in_vivo, "in_vivo"}});
 }
 
+inline constexpr double human_cell_volume = 92e-18;  ///< m3, of the red cells that the laws were fitted to
+
 struct Viscosity {
   ViscosityLaw law = ViscosityLaw::constant;
-  double constant = 3.5e-3;      ///< Pa s, of the constant law
-  double plasma = 1.0466e-3;     ///< Pa s
-  double haematocrit = 0.45;     ///< H, where no other is given
-  double least_diameter = 2e-6;  ///< m, above 1.1 um
+  double constant = 3.5e-3;                     ///< Pa s, of the constant law
+  double plasma = 1.0466e-3;                    ///< Pa s
+  double haematocrit = 0.45;                    ///< H, where no other is given
+  double least_diameter = 2e-6;                 ///< m, above 1.1 um
+  double mean_cell_volume = human_cell_volume;  ///< m3, of the red cells
+
+  /// D over the diameter of the lumen.
+  double diameter_scale() const {
+    return mean_cell_volume == human_cell_volume ? 1 : std::cbrt(human_cell_volume / mean_cell_volume);
+  }
+  /// The lumen's radius (m) where D is `least_diameter`.
+  double least_radius() const { return least_diameter / 2 / diameter_scale(); }
 };
 
 /// n(D, H) of a law that depends on the diameter; D in um.
@@ -57,7 +71,7 @@ Real relative_viscosity(ViscosityLaw law, Real diameter_um, Real haematocrit) {
 template <class Real>
 Real apparent_viscosity(const Viscosity& v, Real radius, Real haematocrit) {
   if (v.law == ViscosityLaw::constant) return Real(v.constant);
-  const Real diameter = std::fmax(2 * radius, Real(v.least_diameter));
+  const Real diameter = std::fmax(2 * radius * Real(v.diameter_scale()), Real(v.least_diameter));
   return Real(v.plasma) * relative_viscosity(v.law, diameter * Real(1e6L), haematocrit);
 }
 

@@ -167,7 +167,7 @@ class ImplicitSolver final : public FlowSolver {
       s.warnings.push_back(
           fmt::format("{} vessels are narrower than blood.least_diameter, {}, and have the viscosity there",
                       grouped(static_cast<long long>(s.statistics->narrow_vessels)),
-                      quantity(mechanics_.viscosity.least_diameter, "m")));
+                      quantity(2 * mechanics_.viscosity.least_radius(), "m")));
     }
   }
 

@@ -32,7 +32,7 @@ std::string extent_text(const std::array<std::pair<double, double>, 3>& extent) 
 }
 
 std::string parts_text(const NetworkSurvey& s) {
-  std::string text = fmt::format("{}, {}; {}, {}", counted(s.parts, "part"), counted(s.loops, "loop"),
+  std::string text = fmt::format("{}, {}; {}, {}", number(s.parts), counted(s.loops, "loop"),
                                  counted(s.ends, "end"), counted(s.conditions, "condition"));
   if (s.open_ends.count > 0)
     text +=
@@ -69,8 +69,8 @@ std::vector<SurveyLine> survey_lines(const NetworkSurvey& s) {
   if (s.assumed_walls.count > 0) {
     lines.push_back(
         {"walls", s.assumed_walls.count == s.vessels
-                      ? "of no given thickness: that of every vessel is assumed by the rules of [wall]"
-                      : fmt::format("of no given thickness in {}, assumed by the rules of [wall]: {}",
+                      ? "no thickness is given: the rules of [wall] assume that of every vessel"
+                      : fmt::format("no thickness is given in {}, where the rules of [wall] assume one: {}",
                                     counted(s.assumed_walls.count, "vessel"), list_of(s.assumed_walls))});
   }
   for (const std::string& note : s.notes) lines.push_back({"note", note});

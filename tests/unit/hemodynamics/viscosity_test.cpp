@@ -52,6 +52,19 @@ TEST(Viscosity, StaysFiniteInTheNarrowestVessels) {
   EXPECT_TRUE(std::isinf(relative_viscosity(ViscosityLaw::in_vivo, 1.1, 0.45)));
 }
 
+TEST(Viscosity, DiametersAreInUnitsOfTheRedCells) {
+  Viscosity man{.law = ViscosityLaw::in_vivo}, rat = man;
+  rat.mean_cell_volume = 55e-18;
+  EXPECT_EQ(man.diameter_scale(), 1);
+  EXPECT_NEAR(rat.diameter_scale(), 1.18707, 1e-5);  // (92/55)^(1/3)
+  // A vessel of a rat is like one of a man that is wider by as much.
+  EXPECT_NEAR(apparent_viscosity(rat, 3e-6, 0.45) / apparent_viscosity(man, 3e-6 * 1.187070, 0.45), 1, 1e-5);
+  // The least diameter is compared with the scaled one.
+  EXPECT_EQ(man.least_radius(), 1e-6);
+  EXPECT_EQ(apparent_viscosity(rat, rat.least_radius() * 0.9, 0.45), apparent_viscosity(man, 1e-6, 0.45));
+  EXPECT_LT(apparent_viscosity(rat, rat.least_radius() * 1.1, 0.45), apparent_viscosity(man, 1e-6, 0.45));
+}
+
 TEST(Viscosity, DoubleAgreesWithLongDouble) {
   for (double d = 2; d < 3e4; d *= 1.37) {
     for (const auto law : {ViscosityLaw::in_vitro, ViscosityLaw::in_vivo}) {

@@ -31,8 +31,8 @@ TreeLaw::TreeLaw(const network::TreePair& tree, const Viscosity& viscosity) : ra
   for (const auto& [r, l] : rules.length_by_radius) length_kinks.push_back(capacity_of(r));
   artery_kinks = vein_kinks = length_kinks;
   if (viscosity.law != ViscosityLaw::constant) {
-    artery_kinks.push_back(capacity_of(viscosity.least_diameter / 2));
-    vein_kinks.push_back(capacity_of(viscosity.least_diameter / 2 / rules.vein_radius_ratio));
+    artery_kinks.push_back(capacity_of(viscosity.least_radius()));
+    vein_kinks.push_back(capacity_of(viscosity.least_radius() / rules.vein_radius_ratio));
   }
   const auto resistance = [=](long double r, long double ratio) {
     return poiseuille_resistance(

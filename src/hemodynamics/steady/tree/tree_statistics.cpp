@@ -286,7 +286,7 @@ Context make_context(const TreeFlow& flow, const Viscosity& viscosity) {
     largest_factor = std::max(
         {largest_factor, static_cast<double>(factor(widest)), static_cast<double>(factor(narrowest))});
     c.narrow_radius[kind] =
-        viscosity.law == ViscosityLaw::constant ? 0 : viscosity.least_diameter / 2 / ratio;
+        viscosity.law == ViscosityLaw::constant ? 0 : viscosity.least_radius() / ratio;
   }
   const double top = std::max(std::abs(least), std::abs(most));
   c.stress_bins = {true, std::size_t{1} << stress_shift, 0, top * largest_factor};
