@@ -62,7 +62,9 @@ ParameterList declare(Parameters& p) {
                   "Looked for from the working folder, then from the input file's folder."},
       {.key = "network.file_length_unit",
        .target = &p.file_length_unit,
-       .meaning = "Unit of coordinates, radii and lengths in a VTP file, which cannot tell, e.g. \"mm\".",
+       .meaning =
+           "Unit of coordinates, radii and lengths in a file that does not tell it, e.g. \"mm\"; a VTP "
+           "file never does. What has a unit in the file keeps that.",
        .only_with = {when("network.source", Source::file)}},
       {.key = "network.tier",
        .target = &p.tier,

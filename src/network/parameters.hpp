@@ -42,7 +42,7 @@ constexpr auto name_table(Tier) {
 struct Parameters {
   Source source = Source::tree;
   std::vector<std::string> files;
-  std::string file_length_unit = "m";
+  std::string file_length_unit;  ///< of files that do not tell theirs; empty: not given
   Tier tier = Tier::automatic;
   bool statistics = true;
   std::vector<std::string> query;

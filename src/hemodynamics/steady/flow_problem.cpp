@@ -32,9 +32,16 @@ void check_files(const FlowProblem& problem) {
   const network::Parameters& n = problem.network;
   if (!n.weakness.subtrees.empty())
     throw InputError("only a tree has subtrees; name the vessels", "weakness.subtrees");
-  check_key("network.files", [&] { network::format_of(n.files); });
+  network::NetworkFormat format = {};
+  check_key("network.files", [&] { format = network::format_of(n.files); });
   if (n.tier == network::Tier::implicit_tree) throw InputError("only a tree can be implicit", "network.tier");
-  check_key("network.file_length_unit", [&] { problem.to_si("1 " + n.file_length_unit, "m"); });
+  check_key("network.file_length_unit", [&] {
+    if (!n.file_length_unit.empty()) problem.to_si("1 " + n.file_length_unit, "m");
+    if (n.file_length_unit.empty() && network::lacks_length_unit(format))
+      throw InputError(
+          "is needed: " + n.files.front() +
+          " cannot tell the unit of its lengths; write for example network.file_length_unit = \"mm\"");
+  });
 }
 
 /// The vessels and subtrees that keys name, and whether the tree can be held as is asked for.

@@ -32,8 +32,12 @@ BoundedGraph read_json_network(const std::filesystem::path& file, const ToSi& to
 
 enum class NetworkFormat { csv, json, vtp };
 
-/// By number and extensions of the files. Throws InputError where they are no network's.
+/// By number and extensions (in any case) of the files. Throws InputError where they are no network's.
 NetworkFormat format_of(const std::vector<std::string>& files);
+
+/// Whether files of that format never tell the unit of their lengths, so that network.file_length_unit is
+/// needed.
+bool lacks_length_unit(NetworkFormat format);
 
 /// The network of `parameters.files`, as the solvers take it: read, then repaired as the keys of [network]
 /// ask for. The one way in from a user's files. Throws InputError.

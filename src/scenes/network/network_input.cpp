@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "input/catalogue.hpp"
-#include "network/files/network_file.hpp"
 #include "runtime/version.hpp"
 
 namespace rhexis::scenes {
@@ -23,8 +22,6 @@ void refuse_keys_of_trees(const SceneInput& s) {
 void warn_of_keys_without_effect(SceneInput& s, const network::Parameters& n) {
   if (!n.is_tree()) {
     warn_of_no_effect(s, "network.statistics", "on a network from files, whose vessels have no generations");
-    if (network::format_of(n.files) != network::NetworkFormat::vtp)
-      warn_of_no_effect(s, "network.file_length_unit", "on CSV and JSON files, which tell their units");
     return;
   }
   if (n.resolved_tier() != network::Tier::implicit_tree) {
