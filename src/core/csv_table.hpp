@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Tables in CSV files: a header row that names columns and, in brackets, their units; rows of numbers and
-/// texts. Commas between fields, points in decimal numbers; fields may stand in double quotes; empty rows and
-/// those of a comment (#) are skipped, a byte order mark and carriage returns before line ends too.
+/// texts. Fields are divided by commas, semicolons or tabs, whichever the header has; with the latter two,
+/// decimal numbers may have a comma instead of the point. Fields may stand in double quotes; empty rows and
+/// those of a comment (#) are skipped. Names are known in any case, with blanks or underscores
+/// (core/heading.hpp), the text in any encoding that core/text_encoding.hpp knows.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <deque>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,42 +19,56 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/faults.hpp"
+#include "core/heading.hpp"
+#include "core/text_encoding.hpp"
 
 namespace rhexis {
 
-/// What a column may be called, and the SI unit of its numbers ("": text, "1": no unit).
-using CsvColumns = std::map<std::string, std::string, std::less<>>;
-
 /// Turns a quantity as written ("1 um") into SI ("m"); throws InputError.
 using ToSi = std::function<double(std::string_view text, std::string_view unit)>;
+
+struct CsvOptions {
+  /// Columns that are not known are skipped, and `skipped()` names them; else they are refused.
+  bool skips_other_columns = false;
+  std::string length_unit = {};  ///< of lengths whose heading tells none; empty: each heading has to tell it
+  std::string length_unit_hint =
+      {};  ///< how else a length may get its unit, to end the message that it has none
+};
 
 /// Rows of a CSV file, with the header understood. Every error is an InputError that names file and line, and
 /// what it is about: the column, the value.
 class CsvTable {
  public:
-  CsvTable(std::string file, std::string text, const CsvColumns& columns, const ToSi& to_si)
-      : file_(std::move(file)), text_(std::move(text)), rest_(text_) {
-    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
-    if (!next()) throw InputError(file_ + ": there is no header row");
-    if (fields_.size() == 1 && fields_[0].find_first_of(";\t") != std::string::npos)
-      throw InputError(where() + ": fields are divided by " +
-                       (fields_[0].find(';') != std::string::npos ? "semicolons" : "tabulators") +
-                       ", and commas are needed, with points in decimal numbers: " + shown(fields_[0]));
-    for (const std::string& field : fields_) read_header(field, columns, to_si);
+  CsvTable(std::string file, std::string text, Columns columns, const ToSi& to_si, CsvOptions options = {})
+      : file_(std::move(file)),
+        text_(plain_text(std::move(text))),
+        rest_(text_),
+        columns_(std::move(columns)),
+        options_(std::move(options)) {
+    if (!next_line()) throw InputError(file_ + ": there is no header row");
+    if (line_text_.size() == 5 && line_text_.starts_with("sep=")) {  // as Excel writes it
+      separator_ = line_text_[4];
+      if (!next_line()) throw InputError(file_ + ": there is no header row");
+    } else {
+      separator_ = separator_of(line_text_);
+    }
+    split();
+    Faults faults;
+    for (const std::string_view field : fields_)
+      faults.collect([&] { read_heading(std::string(field), to_si); });
+    faults.raise();
   }
   CsvTable(const CsvTable&) = delete;
   CsvTable& operator=(const CsvTable&) = delete;
 
   /// The next row that is not empty or a comment; false at the end.
   bool next() {
-    while (!rest_.empty()) {
-      const auto end = rest_.find('\n');
-      const std::string_view line = trimmed(rest_.substr(0, end));
-      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-      ++line_;
-      if (line.empty() || line.front() == '#') continue;
-      split(line);
-      if (!names_.empty() && fields_.size() != names_.size()) refuse_length();
+    while (next_line()) {
+      split();
+      if (std::ranges::all_of(fields_, &std::string_view::empty)) continue;
+      while (fields_.size() > headings_.size() && fields_.back().empty()) fields_.pop_back();
+      if (fields_.size() != headings_.size()) refuse_length();
       return true;
     }
     return false;
@@ -60,117 +77,210 @@ class CsvTable {
   /// "vessels.csv:3", of the present row.
   std::string where() const { return file_ + ":" + std::to_string(line_); }
 
+  /// The number of the present row's line in the file, from 1.
+  std::size_t line() const { return line_; }
+
   /// A text; empty where there is none or no such column.
   std::string text(std::string_view name) const {
     const auto column = find(name);
-    return column == names_.size() ? std::string() : fields_[column];
+    return column == headings_.size() ? std::string() : std::string(fields_[column]);
   }
 
   /// A number in SI; none where the field is empty or there is no such column.
-  std::optional<double> number(std::string_view name) const {
+  std::optional<double> number(std::string_view name) {
     const auto column = find(name);
-    if (column == names_.size() || fields_[column].empty()) return std::nullopt;
-    const std::string& field = fields_[column];
-    const char* first = field.data() + (field.front() == '+' ? 1 : 0);
-    double value = 0;
-    const auto [end, error] = std::from_chars(first, field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-      const bool decimal_comma = field.find(',') != std::string::npos;
-      throw InputError(where() + ": " + std::string(name) + " = " + shown(field) + ": not a finite number" +
-                       (decimal_comma ? "; decimal numbers have a point" : ""));
+    if (column == headings_.size() || fields_[column].empty()) return std::nullopt;
+    const std::optional<double> value = parsed(name, fields_[column]);
+    if (!value || !std::isfinite(*value)) {
+      const bool decimal_comma = separator_ == ',' && fields_[column].find(',') != std::string_view::npos;
+      throw InputError(where() + ": " + std::string(name) + " = " + shown(fields_[column]) +
+                       ": not a finite number" + (decimal_comma ? "; decimal numbers have a point" : ""));
     }
-    return value * factors_[column];
+    return *value * headings_[column].factor;
   }
 
-  bool has(std::string_view name) const { return find(name) < names_.size(); }
+  bool has(std::string_view name) const { return find(name) < headings_.size(); }
+
+  /// Headings, as written, of the columns that are skipped.
+  const std::vector<std::string>& skipped() const { return skipped_; }
+
+  /// Whether a column of lengths has taken its unit from the options.
+  bool uses_length_unit() const { return uses_length_unit_; }
 
  private:
-  static std::string_view trimmed(std::string_view text) {
-    const auto begin = text.find_first_not_of(" \t\r");
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-  }
+  /// A column of the file: the known one that it is, or null, and what turns its numbers into SI.
+  struct FileColumn {
+    const Column* column;
+    double factor;
+  };
 
   /// A field, shortened to what a message can hold.
-  static std::string shown(const std::string& field) {
+  static std::string shown(std::string_view field) {
     constexpr std::size_t most = 60;
-    return field.size() <= most ? field : field.substr(0, most) + "...";
+    return field.size() <= most ? std::string(field) : std::string(field.substr(0, most)) + "...";
+  }
+
+  /// What divides the fields of a header: the one of comma, semicolon and tab that is found most often.
+  static char separator_of(std::string_view header) {
+    char best = ',';
+    std::ptrdiff_t most = 0;
+    for (const char candidate : {',', ';', '\t'}) {
+      const std::ptrdiff_t found = std::ranges::count(header, candidate);
+      if (found > most) {
+        best = candidate;
+        most = found;
+      }
+    }
+    return best;
   }
 
   std::size_t find(std::string_view name) const {
     std::size_t i = 0;
-    while (i < names_.size() && names_[i] != name) ++i;
+    while (i < headings_.size() && (headings_[i].column == nullptr || headings_[i].column->name != name)) ++i;
     return i;
   }
 
+  /// Goes to the next line that is not empty or a comment; false at the end.
+  bool next_line() {
+    while (!rest_.empty()) {
+      const auto end = rest_.find('\n');
+      line_text_ = rest_.substr(0, end);
+      rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
+      ++line_;
+      const std::string_view content = without_blanks(line_text_);
+      if (content.empty() || content.front() == '#') continue;
+      if (line_text_.ends_with('\r')) line_text_.remove_suffix(1);
+      return true;
+    }
+    return false;
+  }
+
   [[noreturn]] void refuse_length() const {
-    const char* hint = fields_.size() < names_.size() ? "is the file cut short here?"
-                       : fields_.size() == 2 * names_.size()
-                           ? "have decimal numbers a comma? they need a point"
+    const char* hint = fields_.size() < headings_.size() ? "is the file cut short here?"
+                       : separator_ == ',' && fields_.size() == 2 * headings_.size()
+                           ? "have decimal numbers a comma? they need a point, or semicolons between fields"
                            : "is there a comma too many?";
     throw InputError(where() + ": " + std::to_string(fields_.size()) + " fields, but the header has " +
-                     std::to_string(names_.size()) + ": " + hint);
+                     std::to_string(headings_.size()) + ": " + hint);
   }
 
-  void split(std::string_view line) {
+  /// The number of a field; none where it is not one.
+  std::optional<double> parsed(std::string_view name, std::string_view field) {
+    std::string with_point;
+    if (separator_ != ',') {
+      const char mark = field.find(',') != std::string_view::npos   ? ','
+                        : field.find('.') != std::string_view::npos ? '.'
+                                                                    : '\0';
+      if (mark != '\0' && decimal_mark_ == '\0') decimal_mark_ = mark;
+      if (mark != '\0' && mark != decimal_mark_) {
+        throw InputError(
+            where() + ": " + std::string(name) + " = " + shown(field) + ": other numbers of the table have " +
+            (decimal_mark_ == ',' ? "a decimal comma" : "a decimal point") + ", this one has not");
+      }
+      if (mark == ',') {
+        with_point = field;
+        with_point[with_point.find(',')] = '.';
+        field = with_point;
+      }
+    }
+    double value = 0;
+    const char *first = field.data() + (field.front() == '+' ? 1 : 0), *last = field.data() + field.size();
+    const auto [end, error] = std::from_chars(first, last, value);
+    if (error != std::errc() || end != last) return std::nullopt;
+    return value;
+  }
+
+  /// Cuts the line into fields without blanks around them.
+  void split() {
     fields_.clear();
+    unescaped_.clear();
+    std::string_view line = line_text_;
     while (true) {
-      line = trimmed(line);
-      std::string field;
-      if (line.starts_with('"')) {
-        std::size_t i = 1;
-        for (; i < line.size(); ++i) {
-          if (line[i] == '"' && (i + 1 == line.size() || line[i + 1] != '"')) break;
-          if (line[i] == '"') ++i;
-          field += line[i];
-        }
-        if (i >= line.size()) throw InputError(where() + ": a quoted field does not end");
-        line = trimmed(line.substr(i + 1));
-        if (!line.empty() && line.front() != ',')
+      auto end = line.find(separator_);
+      std::string_view field = without_blanks(line.substr(0, end));
+      if (field.starts_with('"')) {
+        line.remove_prefix(static_cast<std::size_t>(field.data() - line.data()));
+        field = quoted(line);
+        end = line.find(separator_);
+        if (const std::string_view after = without_blanks(line.substr(0, end)); !after.empty())
           throw InputError(where() + ": text after a quoted field, \"" + shown(field) + "\": '" +
-                           shown(std::string(line.substr(0, line.find(',')))) + "'");
+                           shown(after) + "'");
       }
-      const auto comma = line.find(',');
-      if (field.empty()) field = trimmed(line.substr(0, comma));
-      fields_.push_back(std::move(field));
-      if (comma == std::string_view::npos) return;
-      line.remove_prefix(comma + 1);
+      fields_.push_back(field);
+      if (end == std::string_view::npos) return;
+      line.remove_prefix(end + 1);
     }
   }
 
-  /// "radius [um]": the name, and how many metres one is.
-  void read_header(const std::string& field, const CsvColumns& columns, const ToSi& to_si) {
-    const auto bracket = field.find('[');
-    const std::string name(trimmed(std::string_view(field).substr(0, bracket)));
-    const auto known = columns.find(name);
-    if (known == columns.end()) {
-      std::string all;
-      for (const auto& column : columns) all += (all.empty() ? "" : ", ") + column.first;
-      throw InputError(where() + ": there is no column '" + shown(name) + "' (columns: " + all + ")");
+  /// What stands in the double quotes that `line` begins with; takes it off the line.
+  std::string_view quoted(std::string_view& line) {
+    const std::string_view whole = line;
+    bool has_quotes_inside = false;
+    std::size_t end = 1;
+    for (; end < line.size(); ++end) {
+      if (line[end] != '"') continue;
+      if (end + 1 == line.size() || line[end + 1] != '"') break;
+      has_quotes_inside = true;
+      ++end;
     }
-    if (find(name) < names_.size()) throw InputError(where() + ": two columns are called " + name);
-    const std::string& unit = known->second;
-    double factor = 1;
-    if (!unit.empty() && unit != "1") {
-      const auto end = field.find(']');
-      if (bracket == std::string::npos || end == std::string::npos)
-        throw InputError(where() + ": column " + name + " needs its unit, as in '" + name + " [" + unit +
-                         "]'");
-      try {
-        factor = to_si("1 " + field.substr(bracket + 1, end - bracket - 1), unit);
-      } catch (const InputError& error) {
-        throw InputError(where() + ": column " + shown(field) + ": " + error.what());
-      }
+    if (end >= line.size()) throw InputError(where() + ": a quoted field does not end");
+    line.remove_prefix(end + 1);
+    const std::string_view inside = whole.substr(1, end - 1);
+    if (!has_quotes_inside) return inside;
+    std::string& text = unescaped_.emplace_back();
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      text += inside[i];
+      if (inside[i] == '"') ++i;
     }
-    names_.push_back(name);
-    factors_.push_back(factor);
+    return text;
+  }
+
+  void read_heading(const std::string& field, const ToSi& to_si) {
+    headings_.push_back({nullptr, 1});
+    const Heading heading = parsed_heading(field);
+    const Column* column = find_column(columns_, heading.name);
+    if (column == nullptr && options_.skips_other_columns) {
+      if (!field.empty()) skipped_.push_back(shown(field));
+      return;
+    }
+    if (column == nullptr)
+      throw InputError(where() + ": there is no column '" + shown(heading.name) +
+                       "' (columns: " + names_of(columns_) + ")");
+    if (has(column->name)) throw InputError(where() + ": two columns are called " + column->name);
+    headings_.back() = {column, factor_of(*column, heading, field, to_si)};
+  }
+
+  double factor_of(const Column& column, const Heading& heading, const std::string& field,
+                   const ToSi& to_si) {
+    if (column.unit.empty()) return 1;
+    if (column.unit == "1") return heading.unit == "%" ? 0.01 : 1;
+    std::string unit = heading.unit;
+    if (unit.empty() && column.unit == "m" && !options_.length_unit.empty()) {
+      uses_length_unit_ = true;
+      unit = options_.length_unit;
+    }
+    if (unit.empty())
+      throw InputError(where() + ": column " + column.name + " needs its unit, as in '" + column.name + " [" +
+                       column.unit + "]'" + (column.unit == "m" ? options_.length_unit_hint : ""));
+    try {
+      return to_si("1 " + unit, column.unit);
+    } catch (const InputError& error) {
+      throw InputError(where() + ": column " + shown(field) + ": " + error.what());
+    }
   }
 
   std::string file_, text_;
-  std::string_view rest_;
+  std::string_view rest_, line_text_;
   std::size_t line_ = 0;
-  std::vector<std::string> fields_, names_;
-  std::vector<double> factors_;
+  Columns columns_;
+  CsvOptions options_;
+  char separator_ = ',';
+  char decimal_mark_ = '\0';  ///< of the numbers so far; 0: none had one
+  std::vector<std::string_view> fields_;
+  std::deque<std::string> unescaped_;  ///< fields that had quotes in quotes
+  std::vector<FileColumn> headings_;
+  std::vector<std::string> skipped_;
+  bool uses_length_unit_ = false;
 };
 
 }  // namespace rhexis

@@ -71,27 +71,32 @@ class EnumTarget {
   const Access* access_;
 };
 
-/// One number of every element of a list: the home of a key in a section that may stand any number of times,
+/// One member of an element of a list.
+using ElementTarget = std::variant<double*, std::optional<double>*, std::string*, std::vector<double>*>;
+
+/// One member of every element of a list: the home of a key in a section that may stand any number of times,
 /// [[section]].
 class ListTarget {
  public:
-  template <class Element>
-  ListTarget(std::vector<Element>* list, double Element::*member)
+  template <class Element, class Member>
+  ListTarget(std::vector<Element>* list, Member Element::*member)
       : resize_([list](std::size_t count) { list->resize(count); }),
-        at_([list, member](std::size_t i) { return &((*list)[i].*member); }) {
+        at_([list, member](std::size_t i) -> ElementTarget { return &((*list)[i].*member); }) {
     const auto element = std::make_shared<Element>();
-    prototype_ = std::shared_ptr<double>(element, &(element.get()->*member));
+    prototype_ = &(element.get()->*member);
+    prototype_owner_ = element;
   }
 
   void resize(std::size_t count) const { resize_(count); }
-  double* at(std::size_t i) const { return at_(i); }
-  /// The number of an element that nothing has been read into.
-  double* prototype() const { return prototype_.get(); }
+  ElementTarget at(std::size_t i) const { return at_(i); }
+  /// The member of an element that nothing has been read into.
+  ElementTarget prototype() const { return prototype_; }
 
  private:
   std::function<void(std::size_t)> resize_;
-  std::function<double*(std::size_t)> at_;
-  std::shared_ptr<double> prototype_;
+  std::function<ElementTarget(std::size_t)> at_;
+  ElementTarget prototype_;
+  std::shared_ptr<void> prototype_owner_;
 };
 
 /// Where the value goes. The text "auto" leaves an optional one empty.

@@ -31,10 +31,10 @@ bool is_repeated(const Parameter& parameter) {
   return std::holds_alternative<ListTarget>(parameter.target);
 }
 
-Parameter in_table(const Parameter& repeated, std::size_t number, double* target) {
+Parameter in_table(const Parameter& repeated, std::size_t number, const ElementTarget& target) {
   Parameter parameter = repeated;
   parameter.key = fmt::format("{}[{}].{}", section_of(repeated.key), number, name_of(repeated.key));
-  parameter.target = target;
+  parameter.target = std::visit([](auto* member) { return ParameterTarget(member); }, target);
   return parameter;
 }
 

@@ -24,7 +24,7 @@ std::string without_table(std::string_view key);
 bool is_repeated(const Parameter& parameter);
 
 /// What a repeated parameter is in one of its tables, `number` from 1; its value goes to `target`.
-Parameter in_table(const Parameter& repeated, std::size_t number, double* target);
+Parameter in_table(const Parameter& repeated, std::size_t number, const ElementTarget& target);
 
 /// The sections in the order of their first declaration.
 std::vector<std::string> sections_of(const ParameterList& parameters);

@@ -55,7 +55,7 @@ struct TypeName {
   std::string operator()(const std::vector<std::string>*) const { return "list of texts"; }
   std::string operator()(const std::vector<double>*) const { return "list of numbers" + in_brackets(unit); }
   std::string operator()(const std::vector<CurvePoint>*) const { return "curve" + in_brackets(unit); }
-  std::string operator()(const ListTarget&) const { return (*this)(static_cast<const double*>(nullptr)); }
+  std::string operator()(const ListTarget& target) const { return std::visit(*this, target.prototype()); }
   template <typename T>
   std::string operator()(const std::optional<T>*) const {
     return (*this)(static_cast<const T*>(nullptr));
@@ -70,7 +70,7 @@ struct Example {
   std::string operator()(const bool*) const { return "true"; }
   std::string operator()(const std::string*) const { return example_text(parameter); }
   std::string operator()(const EnumTarget&) const { return example_text(parameter); }
-  std::string operator()(const ListTarget&) const { return example_number(parameter); }
+  std::string operator()(const ListTarget& target) const { return std::visit(*this, target.prototype()); }
   std::string operator()(const std::vector<std::string>*) const {
     return fmt::format("[{}]", example_text(parameter));
   }
@@ -137,6 +137,8 @@ std::pair<std::string, std::string> curve_units(std::string_view unit) {
 }
 
 bool takes_auto(const Parameter& parameter) {
+  if (const auto* list = std::get_if<ListTarget>(&parameter.target))
+    return std::holds_alternative<std::optional<double>*>(list->prototype());
   return std::holds_alternative<std::optional<double>*>(parameter.target) ||
          std::holds_alternative<std::optional<std::int64_t>*>(parameter.target);
 }

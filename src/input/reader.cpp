@@ -61,7 +61,7 @@ void check_sections(const Document& document, const ParameterList& parameters) {
 
 struct ToSiValue {
   SiValue operator()(const EnumTarget& target) const { return target.name(); }
-  SiValue operator()(const ListTarget& target) const { return *target.prototype(); }
+  SiValue operator()(const ListTarget& target) const { return std::visit(*this, target.prototype()); }
   template <typename T>
   SiValue operator()(const std::optional<T>* target) const {
     return *target ? (*this)(&**target) : std::monostate{};

@@ -170,7 +170,7 @@ struct Written {
 
   Value operator()(const double* target) const { return number(*target, parameter.unit); }
   Value operator()(const EnumTarget& target) const { return {target.name()}; }
-  Value operator()(const ListTarget& target) const { return number(*target.prototype(), parameter.unit); }
+  Value operator()(const ListTarget& target) const { return std::visit(*this, target.prototype()); }
   Value operator()(const std::vector<CurvePoint>* target) const {
     const auto [first, second] = curve_units(parameter.unit);
     List points;

@@ -11,4 +11,10 @@ std::string Graph::name_of_vessel(std::size_t v) const {
   return vessel_name.empty() ? std::to_string(v) : vessel_name[v];
 }
 
+std::string BoundedGraph::place_of_vessel(std::size_t v) const {
+  std::string place = file;
+  if (!vessel_line.empty()) place.append(":").append(std::to_string(vessel_line[v]));
+  return place.append(": vessel ").append(graph.name_of_vessel(v));
+}
+
 }  // namespace rhexis::network

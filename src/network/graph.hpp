@@ -14,6 +14,9 @@ namespace rhexis::network {
 /// m; a radius, length or wall beyond these is in the wrong unit. The smallest is less than an atom.
 constexpr double smallest_measure = 1e-12, largest_measure = 100;
 
+/// Of the blood that enters at an end, as a fraction.
+constexpr double highest_haematocrit = 0.95;
+
 enum class VesselKind : std::uint8_t { artery = 0, vein = 1, unknown = 2 };
 
 /// "artery", "vein", or "vessel" where that is unknown.
@@ -33,6 +36,8 @@ struct Graph {
   std::vector<std::int8_t> generation;     ///< [V] optional
   std::vector<std::string> junction_name;  ///< [J] as in the user's file; optional: the index is the name
   std::vector<std::string> vessel_name;    ///< [V] as in the user's file; optional: the index is the name
+  std::vector<std::string> junction_label,
+      vessel_label;  ///< [J], [V] further names, empty where there is none; optional
 
   std::size_t vessels() const { return from.size(); }
   /// Whether the thickness of a vessel's wall is given; else the wall rule assumes it.
@@ -58,6 +63,11 @@ struct BoundedGraph {
   Graph graph;
   std::vector<BoundaryCondition> conditions;
   std::vector<std::string> notes = {};  ///< sentences for the user: what was ignored, merged or assumed
+  std::string file = {};                ///< that the vessels are from
+  std::vector<std::uint32_t> vessel_line = {};  ///< [V] of `file`, from 1; optional: it has no lines
+
+  /// "vessels.csv:12: vessel 7", to open a message.
+  std::string place_of_vessel(std::size_t v) const;
 };
 
 }  // namespace rhexis::network

@@ -58,13 +58,23 @@ ParameterList declare(Parameters& p) {
        .source = "Sec. 3.3"},
       {.key = "network.files",
        .target = &p.files,
-       .meaning = "The user's own network: one VTP or JSON file, or two CSV files, junctions and vessels. "
-                  "Looked for from the working folder, then from the input file's folder."},
+       .meaning =
+           "The user's own network: one VTP, JSON or GraphML file, one .dat file of Secomb's programs, or "
+           "two CSV files, junctions and vessels. Looked for from the working folder, then from the input "
+           "file's folder."},
       {.key = "network.file_length_unit",
        .target = &p.file_length_unit,
        .meaning =
            "Unit of coordinates, radii and lengths in a file that does not tell it, e.g. \"mm\"; a VTP "
            "file never does. What has a unit in the file keeps that.",
+       .only_with = {when("network.source", Source::file)}},
+      {.key = "network.drop",
+       .target = &p.drop,
+       .meaning = "What is left out of a network from files: vessels from a junction to itself "
+                  "(\"self_loops\"), parts "
+                  "without any pressure or flow (\"islands\"), vessels that lead only to ends without one "
+                  "(\"dead_ends\"). What is left out is told.",
+       .choices = {"self_loops", "islands", "dead_ends"},
        .only_with = {when("network.source", Source::file)}},
       {.key = "network.tier",
        .target = &p.tier,
@@ -94,7 +104,8 @@ ParameterList declare(Parameters& p) {
                   "few generations above the capillaries.",
        .only_with = {when("network.source", Source::tree)}},
   };
-  for (const ParameterList& part : {declare(p.tree), declare(p.wall), declare(p.weakness)})
+  for (const ParameterList& part :
+       {declare(p.conditions), declare(p.tree), declare(p.wall), declare(p.weakness)})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

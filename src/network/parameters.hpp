@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Input keys of the sections network, tree, wall and weakness.
+/// Input keys of the sections network, condition, tree, wall and weakness.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "network/repair/end_conditions.hpp"
 #include "network/tree/tree_rules.hpp"
 #include "network/wall.hpp"
 #include "network/wall_variation.hpp"
@@ -42,7 +43,9 @@ constexpr auto name_table(Tier) {
 struct Parameters {
   Source source = Source::tree;
   std::vector<std::string> files;
-  std::string file_length_unit;  ///< of files that do not tell theirs; empty: not given
+  std::string file_length_unit;   ///< of files that do not tell theirs; empty: not given
+  std::vector<std::string> drop;  ///< "self_loops", "islands", "dead_ends"
+  std::vector<EndCondition> conditions;
   Tier tier = Tier::automatic;
   bool statistics = true;
   std::vector<std::string> query;

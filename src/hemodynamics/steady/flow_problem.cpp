@@ -34,6 +34,7 @@ void check_files(const FlowProblem& problem) {
     throw InputError("only a tree has subtrees; name the vessels", "weakness.subtrees");
   network::NetworkFormat format = {};
   check_key("network.files", [&] { format = network::format_of(n.files); });
+  network::check(n.conditions);
   if (n.tier == network::Tier::implicit_tree) throw InputError("only a tree can be implicit", "network.tier");
   check_key("network.file_length_unit", [&] {
     if (!n.file_length_unit.empty()) problem.to_si("1 " + n.file_length_unit, "m");
@@ -73,6 +74,9 @@ std::vector<std::string> resolve(FlowProblem& problem) {
   }
   if (!n.files.empty())
     throw InputError("files are read only where network.source = \"file\"", "network.files");
+  if (!n.conditions.empty())
+    throw InputError("the ends of a tree have flow.inlet_pressure, outlet_pressure and inlet_flow",
+                     "condition[1].junction");
   problem.tree = network::rules_from(n.tree, n.wall.artery, n.wall.vein);
   const TreeBoundary boundary = tree_boundary(problem.blood);
   check_tree(problem);

@@ -89,7 +89,13 @@ void check_flow(NetworkSolution& solution, const std::array<double, 2>& driving)
         "the pressure falls to {}, below that around the vessels: real ones would collapse, these are rigid",
         mmhg(s.lowest_pressure)));
   }
-  if (s.highest_reynolds > laminar_reynolds_number) {
+  constexpr double highest_reynolds_of_blood = 2e4, largest_flow = 1000 / litres_per_minute;
+  if (s.highest_reynolds > highest_reynolds_of_blood || std::abs(s.inflow) > largest_flow) {
+    solution.warnings.push_back(fmt::format(
+        "an inflow of {} L/min and Reynolds numbers up to {} are those of no circulation: are the units of "
+        "lengths, pressures and flows right?",
+        text(s.inflow * litres_per_minute), text(s.highest_reynolds)));
+  } else if (s.highest_reynolds > laminar_reynolds_number) {
     solution.warnings.push_back(
         fmt::format("the Reynolds number reaches {:.0f}; above {:.0f} flow is not laminar, and real "
                     "resistances are higher than those of Eq. (9)",

@@ -5,8 +5,12 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/text_encoding.hpp"
 #include "core/text_file.hpp"
 #include "network/files/vtp_network.hpp"
+#include "network/repair/drop.hpp"
+#include "network/repair/end_conditions.hpp"
+#include "network/survey/plausibility.hpp"
 
 namespace rhexis::network {
 namespace {
@@ -17,8 +21,11 @@ struct FormatOfFiles {
   NetworkFormat format;
 };
 
-constexpr FormatOfFiles formats[] = {
-    {".csv", 2, NetworkFormat::csv}, {".json", 1, NetworkFormat::json}, {".vtp", 1, NetworkFormat::vtp}};
+constexpr FormatOfFiles formats[] = {{".csv", 2, NetworkFormat::csv},
+                                     {".json", 1, NetworkFormat::json},
+                                     {".graphml", 1, NetworkFormat::graphml},
+                                     {".dat", 1, NetworkFormat::secomb},
+                                     {".vtp", 1, NetworkFormat::vtp}};
 
 /// ".csv" of "J.CSV".
 std::string extension_of(const std::string& file) {
@@ -28,10 +35,26 @@ std::string extension_of(const std::string& file) {
   return extension;
 }
 
+BoundedGraph read_files(const std::vector<std::string>& files, const FileOptions& options) {
+  switch (format_of(files)) {
+    case NetworkFormat::csv:
+      return read_csv_network(files[0], files[1], options);
+    case NetworkFormat::json:
+      return read_json_network(files[0], options);
+    case NetworkFormat::graphml:
+      return read_graphml_network(files[0], options);
+    case NetworkFormat::secomb:
+      return read_secomb_network(files[0], options);
+    case NetworkFormat::vtp:
+      break;
+  }
+  return read_vtp_network(files[0], options.to_si("1 " + options.length_unit, "m"));
+}
+
 }  // namespace
 
 std::string read_network_text(const std::filesystem::path& file) {
-  std::string text = whole_file(file);
+  std::string text = plain_text(whole_file(file));
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
     throw InputError(file.string() + ": the file is empty");
   if (text.find('\0') != std::string::npos) throw InputError(file.string() + ": not a text file");
@@ -43,7 +66,9 @@ NetworkFormat format_of(const std::vector<std::string>& files) {
     const auto is_of_format = [&](const std::string& file) { return extension_of(file) == known.extension; };
     if (files.size() == known.files && std::ranges::all_of(files, is_of_format)) return known.format;
   }
-  throw InputError("name one .json or .vtp file, or two .csv files: first junctions, then vessels");
+  throw InputError(
+      "name one .json, .graphml, .dat (Secomb's) or .vtp file, or two .csv files: first junctions, then "
+      "vessels");
 }
 
 bool lacks_length_unit(NetworkFormat format) {
@@ -51,16 +76,18 @@ bool lacks_length_unit(NetworkFormat format) {
 }
 
 BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
-  const std::vector<std::string>& files = parameters.files;
-  switch (format_of(files)) {
-    case NetworkFormat::csv:
-      return read_csv_network(files[0], files[1], to_si);
-    case NetworkFormat::json:
-      return read_json_network(files[0], to_si);
-    case NetworkFormat::vtp:
-      break;
-  }
-  return read_vtp_network(files[0], to_si("1 " + parameters.file_length_unit, "m"));
+  const auto drops = [&](const char* what) {
+    return std::ranges::find(parameters.drop, what) != parameters.drop.end();
+  };
+  BoundedGraph network = read_files(
+      parameters.files,
+      {.to_si = to_si, .length_unit = parameters.file_length_unit, .drops_self_loops = drops("self_loops")});
+  if (network.file.empty()) network.file = parameters.files.back();
+  set_end_conditions(parameters.conditions, network);
+  if (drops("islands")) drop_islands(network);
+  if (drops("dead_ends")) drop_dead_ends(network);
+  for (std::string& sentence : improbable(network)) network.notes.push_back(std::move(sentence));
+  return network;
 }
 
 }  // namespace rhexis::network

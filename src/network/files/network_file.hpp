@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Networks of the user's own, read from files.
 ///
-/// CSV: two files, each with a header row that names columns (in any order) and, in brackets, their units;
-/// rows of comments (#) and empty ones are skipped, fields may stand in double quotes.
-///   junctions:  id; optional: x [mm], y [mm], z [mm]; pressure [mmHg] or flow [mL/min] (into the network);
-///               resistance [Pa s/m3] (of a peripheral bed behind which the pressure lies)
-///   vessels:    id, from, to, radius [um] or diameter [um]; optional: length [mm] (else the distance of the
-///   ends),
-///               wall_thickness [um], kind (artery, vein, unknown), generation
+/// CSV: two files, each with a header row that names columns (in any order; network_builder.hpp has the
+/// names) and, in brackets, their units; see core/csv_table.hpp.
+///   junctions:  id; optional: name, x [mm], y [mm], z [mm]; pressure [mmHg] or flow [mL/min] (into the
+///   network);
+///               resistance [Pa s/m3] (of a peripheral bed behind which the pressure lies); haematocrit
+///   vessels:    id, from, to, radius [um] or diameter [um]; optional: name, length [mm] (else the distance
+///   of the
+///               ends), wall_thickness [um], kind (artery, vein, unknown), generation
 /// JSON: the same names in {"units": {"length": "mm", "pressure": "mmHg", "flow": "mL/min", "resistance": "Pa
 /// s/m3"},
 ///   "junctions": [{"id": "a", "x": 0, ...}, ...], "vessels": [{"id": 1, "from": "a", "to": "b", "radius":
 ///   0.1}, ...]}; the unit of a kind that no member uses may be left out.
-/// VTP: see vtp_network.hpp.
+/// GraphML: see graphml_network.cpp. Secomb's .dat: see secomb_network.cpp. VTP: see vtp_network.hpp.
 #pragma once
 
 #include <filesystem>
@@ -25,12 +26,15 @@
 
 namespace rhexis::network {
 
-/// Each throws InputError naming the file, line or member, value, and what is allowed.
+/// Each throws InputError naming the file, line or member, value, and what is allowed, of all that is wrong
+/// at once.
 BoundedGraph read_csv_network(const std::filesystem::path& junctions, const std::filesystem::path& vessels,
-                              const ToSi& to_si);
-BoundedGraph read_json_network(const std::filesystem::path& file, const ToSi& to_si);
+                              const FileOptions& options);
+BoundedGraph read_json_network(const std::filesystem::path& file, const FileOptions& options);
+BoundedGraph read_graphml_network(const std::filesystem::path& file, const FileOptions& options);
+BoundedGraph read_secomb_network(const std::filesystem::path& file, const FileOptions& options);
 
-enum class NetworkFormat { csv, json, vtp };
+enum class NetworkFormat { csv, json, graphml, secomb, vtp };
 
 /// By number and extensions (in any case) of the files. Throws InputError where they are no network's.
 NetworkFormat format_of(const std::vector<std::string>& files);
@@ -43,7 +47,8 @@ bool lacks_length_unit(NetworkFormat format);
 /// ask for. The one way in from a user's files. Throws InputError.
 BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si);
 
-/// The whole text of a file; throws InputError where it cannot be read or is empty.
+/// The whole text of a file, as core/text_encoding.hpp has it; throws InputError where it cannot be read or
+/// is empty.
 std::string read_network_text(const std::filesystem::path& file);
 
 }  // namespace rhexis::network

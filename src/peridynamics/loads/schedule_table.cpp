@@ -10,8 +10,9 @@
 namespace rhexis::peridynamics {
 
 std::vector<CurvePoint> schedule_table(const std::string& file, std::string text, const ToSi& to_si) {
+  text = plain_text(std::move(text));
   if (text.find('\0') != std::string::npos) throw InputError(file + ": not a text file");
-  CsvTable table(file, std::move(text), {{"time", "s"}, {"pressure", "Pa"}}, to_si);
+  CsvTable table(file, std::move(text), Columns{{"time", "s"}, {"pressure", "Pa"}}, to_si);
   for (const char* name : {"time", "pressure"})
     if (!table.has(name)) throw InputError(table.where() + ": there is no column " + name);
   const auto number = [&](const char* name) {

@@ -3,54 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
-#include <map>
 
-#include "core/error.hpp"
-#include "network/files/network_file.hpp"
-#include "unit/output/temporary_directory.hpp"
+#include "unit/network/network_case.hpp"
 
 namespace rhexis::network {
 namespace {
 
-/// Converts units; in the program this is UDUNITS.
-double to_si(std::string_view quantity, std::string_view unit) {
-  static const std::map<std::string, std::pair<double, std::string>, std::less<>> units{
-      {"1 um", {1e-6, "m"}},       {"1 mm", {1e-3, "m"}},        {"1 m", {1, "m"}},
-      {"1 mmHg", {133.322, "Pa"}}, {"1 Pa", {1, "Pa"}},          {"1 mL/min", {1e-6 / 60, "m3/s"}},
-      {"1 m3/s", {1, "m3/s"}},     {"1 Pa s/m3", {1, "Pa s/m3"}}};
-  const auto found = units.find(quantity);
-  if (found == units.end() || found->second.second != unit)
-    throw InputError("not a unit of " + std::string(unit));
-  return found->second.first;
-}
-
-class NetworkFiles : public testing::Test {
+class NetworkFiles : public NetworkCase {
  protected:
-  std::filesystem::path write(const std::string& name, const std::string& text) {
-    const auto path = folder_.path() / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
   BoundedGraph csv(const std::string& junctions, const std::string& vessels) {
-    return read_csv_network(write("j.csv", junctions), write("v.csv", vessels), to_si);
+    return read_csv_network(write("j.csv", junctions), write("v.csv", vessels), options_);
   }
-  BoundedGraph json(const std::string& text) { return read_json_network(write("n.json", text), to_si); }
+  BoundedGraph json(const std::string& text) { return read_json_network(write("n.json", text), options_); }
 
-  template <class Read>
-  void refused(const Read& read, const std::vector<std::string>& fragments) {
-    try {
-      read();
-      ADD_FAILURE() << "accepted; expected: " << fragments.front();
-    } catch (const InputError& error) {
-      for (const std::string& fragment : fragments) {
-        EXPECT_NE(std::string(error.what()).find(fragment), std::string::npos)
-            << error.what() << "\nlacks " << fragment;
-      }
-    }
-  }
-
-  test::TemporaryDirectory folder_;
+  FileOptions options_{.to_si = to_si};
 };
 
 const std::string junctions = "id,x [mm],y [mm],z [mm],pressure [mmHg]\na,0,0,0,10\nb,3,4,0,\nc,3,4,12,0\n";
@@ -107,7 +73,8 @@ TEST_F(NetworkFiles, CsvMistakes) {
       {"x [mm]\n1\n", vessels, {"j.csv:1", "no column id"}},
       {"id,x,y [mm],z [mm]\na,1,2,3\n", vessels, {"j.csv:1", "column x", "x [m]"}},
       {"id,x [kg],y [mm],z [mm]\na,1,2,3\n", vessels, {"j.csv:1", "x [kg]"}},
-      {"id,weight\na,1\n", vessels, {"j.csv:1", "weight", "pressure"}},
+      {"id,x,y [mm],z [kg]\na,1,2,3\n", vessels, {"2 faults", "j.csv:1: column x", "j.csv:1: column z [kg]"}},
+      {vessels, vessels, {"j.csv:1", "a table of vessels"}},
       {"id,id\na,b\n", vessels, {"j.csv:1", "two columns"}},
       {"id\na\nb\na\n", vessels, {"j.csv:4", "id = a", "already"}},
       {"id,x [mm],y [mm],z [mm]\na,1,2\n", vessels, {"j.csv:2", "3 fields", "4", "cut short"}},
@@ -148,7 +115,7 @@ TEST_F(NetworkFiles, CsvMistakes) {
        {"v.csv", "junction stray", "no vessel's end"}},
   };
   for (const Mistake& m : mistakes) refused([&] { csv(m.j, m.v); }, m.fragments);
-  refused([&] { read_csv_network(folder_.path() / "absent.csv", folder_.path() / "v.csv", to_si); },
+  refused([&] { read_csv_network(folder_.path() / "absent.csv", folder_.path() / "v.csv", options_); },
           {"absent.csv"});
 }
 
@@ -171,7 +138,6 @@ TEST_F(NetworkFiles, JsonMistakes) {
       {"{\"units\": {},\n \"junctions\": [", {"n.json:2", "cut short"}},
       {"[]", {"n.json", "an object"}},
       {"{}", {"junctions", "a list"}},
-      {R"({"unit": {}})", {"unit", "units"}},
       {R"({"units": {"length": "kg"}})", {"units.length", "kg"}},
       {R"({"units": {"length": 1}})", {"units.length"}},
       {R"({"junctions": [1], "vessels": []})", {"junctions[0]", "an object"}},
@@ -183,10 +149,10 @@ TEST_F(NetworkFiles, JsonMistakes) {
        {"vessels[0].radius", "number"}},
       {with(R"({"id": 1, "from": "a", "to": "b", "length": 1})"), {"vessels[0]", "radius", "missing"}},
       {with(R"({"id": 1, "from": "a", "to": "c", "radius": 1, "length": 1})"), {"vessels[0]", "to = c"}},
-      {with(R"({"id": 1, "from": "a", "to": "b", "radius": 1, "size": 1})"),
-       {"vessels[0].size", "wall_thickness"}},
+      {with(R"({"id": 1, "from": "a", "to": "b", "radius": 1, "Radius": 1, "length": 1})"),
+       {"vessels[0]", "two members mean the radius"}},
       {with(R"({"id": 1.5, "from": "a", "to": "b", "radius": 1, "length": 1})"), {"vessels[0].id", "1.5"}},
-      {with(R"({"id": 1, "to": "b", "radius": 1, "length": 1})"), {"vessels[0].from is missing"}},
+      {with(R"({"id": 1, "to": "b", "radius": 1, "length": 1})"), {"vessels[0]: from is missing"}},
       {R"({"junctions": [{"id": 1}, {"id": 2}], "vessels": [{"id": 1, "from": 1, "to": 2, "radius": 1, "length": 1}]})",
        {"vessels[0].radius", "units.length"}},
   };
@@ -198,7 +164,7 @@ TEST_F(NetworkFiles, KindsOfFiles) {
        {std::vector<std::string>{"a.csv"}, {"a.json", "b.json"}, {"a.txt"}, {"a.csv", "b.csv", "c.csv"}}) {
     Parameters parameters;
     parameters.files = files;
-    refused([&] { read_network(parameters, to_si); }, {".json or .vtp", "two .csv"});
+    refused([&] { read_network(parameters, to_si); }, {"one .json", ".vtp", "two .csv"});
   }
 }
 

@@ -13,6 +13,7 @@
 #include "core/format.hpp"
 #include "hemodynamics/poiseuille.hpp"
 #include "network/files/network_file.hpp"
+#include "network/names.hpp"
 #include "network/tree/tree_pair.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/large_array.hpp"
@@ -133,14 +134,9 @@ std::uint32_t find_vessel(const FlowProblem& problem, const Graph& graph, const 
       throw InputError(error.what(), key);
     }
   }
-  if (!graph.vessel_name.empty()) {
-    const auto found = std::find(graph.vessel_name.begin(), graph.vessel_name.end(), name);
-    if (found != graph.vessel_name.end())
-      return static_cast<std::uint32_t>(found - graph.vessel_name.begin());
-  } else if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos && name.size() < 10) {
-    const auto number = static_cast<std::size_t>(std::stoul(name));
-    if (number < graph.vessels()) return static_cast<std::uint32_t>(number);
-  }
+  std::optional<std::uint32_t> found;
+  check_key(key.c_str(), [&] { found = network::find_vessel(graph, name); });
+  if (found) return *found;
   throw InputError("there is no vessel '" + name + "' in " + problem.network.files.back(), key);
 }
 
