@@ -41,11 +41,13 @@ class Reader {
       : file_(file.string()), text_(read_network_text(file)), rest_(text_), builder_(options) {}
 
   BoundedGraph read() {
-    for (int i = 0; i < lines_of_head; ++i) next("the head of six lines");
-    read_list("segments", 5, [&](const Line& line) { read_segment(line); });
-    read_list("nodes", 4, [&](const Line& line) { read_node(line); });
-    read_list("boundary nodes", 3, [&](const Line& line) { read_boundary_node(line); });
-    add_all();
+    const bool is_whole = builder_.faults().collect([&] {
+      for (int i = 0; i < lines_of_head; ++i) next("the head of six lines");
+      read_list("segments", 5, [&](const Line& line) { read_segment(line); });
+      read_list("nodes", 4, [&](const Line& line) { read_node(line); });
+      read_list("boundary nodes", 3, [&](const Line& line) { read_boundary_node(line); });
+    });
+    if (is_whole) add_all();
     builder_.use_length_unit();
     return builder_.finish(file_);
   }
@@ -171,12 +173,14 @@ class Reader {
   }
 
   void add_all() {
-    for (const auto& [row, line] : nodes_) {
-      const bool is_read = builder_.faults().collect([&] { builder_.add(row, where(line)); });
-      if (!is_read) builder_.mention_junction(row.id);
+    for (const Placed<JunctionRow>& node : nodes_) {
+      const bool is_read = builder_.faults().collect([&] { builder_.add(node.row, where(node.line)); });
+      if (!is_read) builder_.mention_junction(node.row.id);
     }
-    for (const auto& [row, line] : segments_)
-      builder_.faults().collect([&] { builder_.add(row, where(line), static_cast<std::uint32_t>(line)); });
+    for (const Placed<VesselRow>& segment : segments_) {
+      builder_.faults().collect(
+          [&] { builder_.add(segment.row, where(segment.line), static_cast<std::uint32_t>(segment.line)); });
+    }
     if (others_ > 0)
       builder_.note(fmt::format(
           "{}: {} segments of other types than 4 and 5 carry no blood and are left out; the first is {}",

@@ -18,7 +18,7 @@ void keep(std::vector<T>& values, const std::vector<bool>& kept) {
   if (values.empty()) return;
   std::size_t count = 0;
   for (std::size_t i = 0; i < kept.size(); ++i)
-    if (kept[i]) values[count++] = std::move(values[i]);
+    if (kept[i] && count++ != i) values[count - 1] = std::move(values[i]);
   values.resize(count);
 }
 

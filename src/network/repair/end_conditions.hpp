@@ -14,9 +14,10 @@ namespace rhexis::network {
 
 /// A section [[condition]].
 struct EndCondition {
-  std::string junction;                                           ///< id or name; empty: `nearest`
-  std::vector<double> nearest;                                    ///< m, a point whose nearest end is meant
-  std::optional<double> pressure, flow, resistance, haematocrit;  ///< as of BoundaryCondition
+  std::string junction = {};         ///< id or name; empty: `nearest`
+  std::vector<double> nearest = {};  ///< m, a point whose nearest end is meant
+  std::optional<double> pressure = {}, flow = {}, resistance = {},
+                        haematocrit = {};  ///< as of BoundaryCondition
 };
 
 ParameterList declare(std::vector<EndCondition>& conditions);
