@@ -25,6 +25,7 @@ from visible_spheres import visible
 
 SPHERE = 1.2  # diameter of a sphere in spacings: neighbours touch, gaps between torn parts stay open
 AZIMUTH, ELEVATION = math.radians(22.5), math.radians(28)  # of the camera, about the vessel's axis z
+LEGEND = 96  # pixels below each view, for its colour bar: fragments that fly about would lie under a bar within the view
 SLENDER = 4  # vessels longer than this many diameters lie down, one picture above the other
 DAMAGE_RANGE = 0.5  # a particle on the edge of a crack has lost about half of its bonds
 GREY_TO_RED = [(0.82, 0.82, 0.82), (0.98, 0.75, 0.55), (0.90, 0.33, 0.22), (0.45, 0.0, 0.05)]
@@ -66,7 +67,8 @@ class VesselPicture:
         self.length = high[2] - low[2]
         self.centre = 0.5 * (low + high)
         self.upright = self.length < SLENDER * 2 * self.radius
-        self.width, self.height = (WIDTH // 2, HEIGHT) if self.upright else (WIDTH, HEIGHT // 2)  # of one view
+        self.width = WIDTH // 2 if self.upright else WIDTH  # pixels of one view, without its colour bar
+        self.height = (HEIGHT if self.upright else HEIGHT // 2) - LEGEND
         self.largest_mm = 0.0
         self._choose_camera()
         self.sphere_pixels = max(2.5, SPHERE * spacing / (2 * self.scale) * self.height)
@@ -114,7 +116,7 @@ class VesselPicture:
         """The numbers of the particles that no others of this rank hide from the camera, and perhaps a few more."""
         pixels_per_m = self.height / (2 * self.scale)
         axes = (numpy.array([self.up, self.right, self.sight]) * pixels_per_m).astype(numpy.float32)
-        up, across, depth = axes @ (position - self.focus.astype(numpy.float32)).T
+        up, across, depth = axes @ (position - self.centre.astype(numpy.float32)).T
         radius = 0.5 * self.sphere_pixels
         return visible(up + 0.5 * self.height, across + 0.5 * self.width, depth, radius, self.height, self.width)
 
@@ -135,57 +137,57 @@ class VesselPicture:
         along /= numpy.linalg.norm(along)
 
         # Room for the vessel and for walls that move out by another radius; `scale` is half of a view's height.
-        # The legend stands on the right of an upright vessel, below a lying one, which make way for it a little.
         room = 2 * self.radius
         long_side = self.length * math.cos(ELEVATION) + 2 * room * math.sin(ELEVATION)
         shape = self.width / self.height
         if self.upright:
             self.right, self.up = numpy.cross(along, self.sight), along
-            self.scale = 0.5 * max(long_side / 0.90, 2 * room / 0.64 / shape)
-            self.focus = self.centre + 0.06 * 2 * self.scale * shape * self.right
+            self.scale = 0.5 * max(long_side / 0.92, 2 * room / 0.92 / shape)
         else:
             self.right, self.up = along, numpy.cross(self.sight, along)
-            self.scale = 0.5 * max(long_side / 0.92 / shape, 2 * room / 0.6)
-            self.focus = self.centre - 0.08 * 2 * self.scale * self.up
+            self.scale = 0.5 * max(long_side / 0.92 / shape, 2 * room / 0.84)
 
     def _make_window(self):
         self.window = vtkRenderWindow()
         self.window.SetOffScreenRendering(1)
         self.window.SetMultiSamples(0)
         self.window.SetSize(WIDTH, HEIGHT)
-        first, second = (
-            [self._view(0, 0, 0.5, 1), self._view(0.5, 0, 1, 1)]
-            if self.upright
-            else [self._view(0, 0.5, 1, 1), self._view(0, 0, 1, 0.5)]
-        )
+        corners = [(0, 0), (WIDTH // 2, 0)] if self.upright else [(0, HEIGHT // 2), (0, 0)]  # pixels, bottom left
+        first, second = [self._view(left, bottom + LEGEND) for left, bottom in corners]
+        below_first, below_second = [self._layer(left, bottom, LEGEND) for left, bottom in corners]
         self.displacement_colours = colours(VIRIDIS, "RGB")
         damage_colours = colours(GREY_TO_RED, "Lab")
         damage_colours.SetRange(0.0, DAMAGE_RANGE)
         self.displacement_bodies = self._body(first, self.displacement_colours)
         self.damage_bodies = self._body(second, damage_colours)
-        self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", first)
-        self.damage_legend = self._legend(damage_colours, "Damage (fraction)", second)
+        self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", below_first)
+        self.damage_legend = self._legend(damage_colours, "Damage (fraction)", below_second)
         set_labels(self.damage_legend, DAMAGE_RANGE)
-        self.moment = text(first, 22, (0.01, 0.99))
-        self.step = text(second, 22, (0.99, 0.99))
+        self.moment = text(first, 22, (0.01, 0.98))
+        self.step = text(second, 22, (0.99, 0.98))
         self.step.GetTextProperty().SetJustificationToRight()
         for line in (self.moment, self.step):
             line.GetTextProperty().SetVerticalJustificationToTop()
         self._scale_bar(first)
 
-    def _view(self, *viewport):
-        view = vtkRenderer()
-        view.SetViewport(*viewport)
-        view.SetBackground(1.0, 1.0, 1.0)
+    def _layer(self, left, bottom, height):
+        """A white part of the window, as wide as a view."""
+        layer = vtkRenderer()
+        layer.SetViewport(left / WIDTH, bottom / HEIGHT, (left + self.width) / WIDTH, (bottom + height) / HEIGHT)
+        layer.SetBackground(1.0, 1.0, 1.0)
+        self.window.AddRenderer(layer)
+        return layer
+
+    def _view(self, left, bottom):
+        view = self._layer(left, bottom, self.height)
         camera = view.GetActiveCamera()
         camera.ParallelProjectionOn()
         camera.SetParallelScale(self.scale)
-        camera.SetFocalPoint(*self.focus)
+        camera.SetFocalPoint(*self.centre)
         distance = 10 * (self.length + self.radius)
-        camera.SetPosition(*(self.focus + distance * self.sight))
+        camera.SetPosition(*(self.centre + distance * self.sight))
         camera.SetViewUp(*self.up)
         camera.SetClippingRange(0.1 * distance, 1.9 * distance)  # VTK would look for one in each picture
-        self.window.AddRenderer(view)
         return view
 
     def _body(self, view, colours):
@@ -224,7 +226,7 @@ class VesselPicture:
         self.displacement_colours.SetRange(0.0, top)
         set_labels(self.displacement_legend, top)
 
-    def _legend(self, colours, title, view):
+    def _legend(self, colours, title, below):
         bar = vtkScalarBarActor()
         bar.SetLookupTable(colours)
         colours.SetAboveRangeColor(*colours.GetTableValue(colours.GetNumberOfTableValues() - 1))
@@ -233,34 +235,23 @@ class VesselPicture:
         bar.UnconstrainedFontSizeOn()
         for style in (bar.GetLabelTextProperty(), bar.GetAnnotationTextProperty()):
             plain(style, 18)
-        on_white(bar.GetAnnotationTextProperty())
-        bar.DrawBackgroundOn()  # on top of fragments
-        bar.GetBackgroundProperty().SetColor(1.0, 1.0, 1.0)
-        bar.GetBackgroundProperty().SetOpacity(0.8)
-        if self.upright:
-            bar.SetOrientationToVertical()
-            bar.SetLabelFormat("  %g")
-            bar.SetPosition(0.8, 0.22)
-            bar.SetWidth(0.14)
-            bar.SetHeight(0.5)
-            bar.SetBarRatio(0.2)
-            text(view, 18, (0.71, 0.74), title)
-        else:
-            bar.SetOrientationToHorizontal()
-            bar.SetLabelFormat("%g")
-            bar.SetPosition(0.325, 0.08)  # what is written of values beyond comes below
-            bar.SetWidth(0.35)
-            bar.SetHeight(0.12)
-            bar.SetBarRatio(0.4)
-            text(view, 18, (0.325, 0.22), title)
-        view.AddActor2D(bar)
+        bar.SetOrientationToHorizontal()
+        bar.SetLabelFormat("%g")
+        bar.SetBarRatio(0.4)
+        width = 320 / self.width
+        bar.SetPosition(0.5 - width / 2, 0.25)  # what is written of values beyond comes below
+        bar.SetWidth(width)
+        bar.SetHeight(0.5)
+        title = text(below, 18, (0.5, 0.78), title)
+        title.GetTextProperty().SetJustificationToCentered()
+        below.AddActor2D(bar)
         return bar
 
     def _scale_bar(self, view):
         """A line of a round length at the bottom left, with its length in millimetres above."""
         width = 2 * self.scale * self.width / self.height
         length = round_up((0.1 if self.upright else 0.05) * width)
-        corner = self.focus - 0.93 * self.scale * self.up - 0.47 * width * self.right + 4 * self.radius * self.sight
+        corner = self.centre - 0.93 * self.scale * self.up - 0.47 * width * self.right + 4 * self.radius * self.sight
         line = vtkLineSource()
         line.SetPoint1(*corner)
         line.SetPoint2(*(corner + length * self.right))
@@ -282,19 +273,14 @@ def set_labels(bar, top):
     bar.UseCustomLabelsOn()
 
 
-def on_white(style):
-    """So that text can be read on top of fragments."""
-    style.SetBackgroundColor(1.0, 1.0, 1.0)
-    style.SetBackgroundOpacity(0.8)
-
-
 def text(view, size, position, line=""):
     """A line of text at a position (0 ... 1) in a view."""
     actor = vtkTextActor()
     actor.SetInput(line)
     style = actor.GetTextProperty()
     plain(style, size)
-    on_white(style)
+    style.SetBackgroundColor(1.0, 1.0, 1.0)  # so that it can be read on top of fragments
+    style.SetBackgroundOpacity(0.8)
     actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
     actor.SetPosition(*position)
     view.AddActor2D(actor)
