@@ -62,8 +62,9 @@ struct BoundaryCondition {
 struct BoundedGraph {
   Graph graph;
   std::vector<BoundaryCondition> conditions;
-  std::vector<std::string> notes = {};  ///< sentences for the user: what was ignored, merged or assumed
-  std::string file = {};                ///< that the vessels are from
+  std::vector<std::string> notes = {};     ///< sentences for the user: what was ignored, merged or assumed
+  std::vector<std::string> warnings = {};  ///< sentences for the user: what is probably not meant
+  std::string file = {};                   ///< that the vessels are from
   std::vector<std::uint32_t> vessel_line = {};  ///< [V] of `file`, from 1; optional: it has no lines
 
   /// "vessels.csv:12: vessel 7", to open a message.

@@ -342,14 +342,35 @@ class Network(unittest.TestCase):
             edges = [row["from"] for row in csv.DictReader(file) if (row["kind"], row["quantity"]) == ("vein", "hoop_stress_Pa")]
         self.assertIn("-inf", edges)
 
+    def test_conditions_of_the_input_and_what_is_left_out(self):
+        self.write("j.csv", JUNCTIONS + "d,9,9,9,\ne,9,9,8,\n")
+        self.write("v.csv", VESSELS + "3,d,e,50\n4,b,b,50\n")
+        self.write("n.toml", FILES + 'drop = ["self_loops", "islands"]\n'
+                   '[[condition]]\njunction = "a"\npressure = "20 mmHg"\n'
+                   '[[condition]]\nnearest = ["3 mm", "4 mm", "13 mm"]\nflow = "-1e-3 mL/min"\n')
+        result = self.run_well("n.toml", "-o", "out")
+        network = self.record("out")["results"]["network"]
+        self.assertEqual((network["vessels"], network["junctions"]), (2, 3))
+        self.assertAlmostEqual(network["inflow_m3_s"] / (1e-9 / 60), 1, delta=1e-12)
+        self.assertAlmostEqual(network["highest_pressure_Pa"], 20 * 133.322387415, delta=1e-6)
+        self.assertIn("condition[2] is at junction c", result.stdout)
+        for more, fragments in (
+                (["condition[1].junction=q"], ["condition[1].junction=q", "no junction of this id or name"]),
+                (["condition[2].haematocrit=45"], ["condition[2].haematocrit", "at most 0.95"]),
+                (["network.drop=['loops']"], ["network.drop", "self_loops"])):
+            result = self.rhexis("run", "n.toml", "--set", *more)
+            self.assert_refused(result, fragments, more[0], ["n.toml", "j.csv", "v.csv", "out"])
+
     def test_flows_that_mean_little_are_told(self):
         self.write("n.toml", FILES)
         self.write("v.csv", VESSELS)
         self.write("j.csv", JUNCTIONS)
         self.assertIn("2 vessels, 3 junctions", self.rhexis("check", "n.toml").stdout)
         for junctions, vessels, warning in (
-                (JUNCTIONS.replace("12,0", "12,"), VESSELS, "nothing flows"),
-                (JUNCTIONS, VESSELS.replace("[um]", "[mm]"), "the Reynolds number reaches"),
+                (JUNCTIONS.replace("12,0", "12,"), VESSELS, "nothing flows: no difference"),
+                (JUNCTIONS, VESSELS.replace("50", "2").replace("40", "2").replace("[um]", "[mm]"), "the Reynolds number reaches"),
+                (JUNCTIONS, VESSELS.replace("[um]", "[mm]"), "an inflow of"),
+                (JUNCTIONS, VESSELS.replace("[um]", "[mm]"), str(self.path / "v.csv") + ":2: vessel 1, the first of 2: radius 50 mm"),
                 (JUNCTIONS.replace("12,0", "12,-20"), VESSELS, "the pressure falls to -20 mmHg"),
                 (JUNCTIONS.replace("12,0", "12,-1000"), VESSELS, "the pressure falls to -1000 mmHg, below vacuum"),
                 (JUNCTIONS, VESSELS, None)):
@@ -358,7 +379,9 @@ class Network(unittest.TestCase):
             for more, ranks in (([], None), (["--set", "network.tier=distributed"], 2)):
                 result = self.run_well("n.toml", "-o", "out", *more, ranks=ranks)
                 record = self.record("out")
-                self.assertEqual([w.startswith(warning or "-") for w in record["warnings"]], [True] if warning else [])
+                told = [w for w in record["warnings"] if warning and w.startswith(warning)]
+                self.assertEqual(len(told), 1 if warning else 0, record["warnings"])
+                self.assertTrue(warning or not record["warnings"], record["warnings"])
                 self.assertEqual(result.stderr.count("rhexis: warning: "), len(record["warnings"]), result.stderr)
                 if warning and "Reynolds" in warning:
                     self.assertGreater(record["results"]["network"]["highest_reynolds"], 2300)

@@ -86,7 +86,9 @@ BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
   set_end_conditions(parameters.conditions, network);
   if (drops("islands")) drop_islands(network);
   if (drops("dead_ends")) drop_dead_ends(network);
-  for (std::string& sentence : improbable(network)) network.notes.push_back(std::move(sentence));
+  Improbable found = improbable(network);
+  network.warnings = std::move(found.warnings);
+  network.notes.insert(network.notes.end(), found.notes.begin(), found.notes.end());
   return network;
 }
 

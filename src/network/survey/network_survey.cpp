@@ -91,6 +91,7 @@ NetworkSurvey survey_of(const BoundedGraph& network) {
   s.junctions = g.junctions;
   s.conditions = network.conditions.size();
   s.notes = network.notes;
+  s.warnings = network.warnings;
   const std::vector<std::uint32_t> part = first_of_part(g);
   const std::vector<PartConditions> of_part = conditions_of_parts(network, part);
   survey_junctions(s, network, part, of_part);

@@ -47,8 +47,8 @@ struct NetworkSurvey {
   std::size_t vessels_without_way = 0;
   MeasureRange radius, length;
   std::optional<std::array<std::pair<double, double>, 3>> extent;  ///< m, of x, y, z; none: no coordinates
-  NamedCount assumed_walls;        ///< vessels whose thickness is not given: the rules of [wall] give it
-  std::vector<std::string> notes;  ///< what the reading has told: BoundedGraph::notes
+  NamedCount assumed_walls;  ///< vessels whose thickness is not given: the rules of [wall] give it
+  std::vector<std::string> notes, warnings;  ///< what the reading has told: those of BoundedGraph
 
   std::size_t without_flow() const { return dead_ends.count + vessels_without_way; }
 };

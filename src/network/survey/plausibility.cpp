@@ -36,14 +36,14 @@ class Look {
  public:
   explicit Look(const BoundedGraph& network) : network_(network), g_(network.graph), degree_(degrees(g_)) {}
 
-  std::vector<std::string> sentences() {
+  Improbable found() {
     for (std::size_t v = 0; v < g_.vessels(); ++v) look_at_vessel(v);
     look_at_conditions();
     faults_.raise();
     tell_radii();
     tell_lengths();
     tell_pressures();
-    return std::move(sentences_);
+    return std::move(found_);
   }
 
  private:
@@ -86,44 +86,48 @@ class Look {
     }
   }
 
-  void tell(const Tally& tally, const std::string& what) {
-    if (tally.count == 0) return;
-    const std::string others =
-        tally.count > 1 ? fmt::format(", the first of {}", grouped(static_cast<long long>(tally.count))) : "";
-    sentences_.push_back(fmt::format("{}{}: {}", network_.place_of_vessel(tally.first), others, what));
+  static std::string others(const Tally& tally) {
+    return tally.count > 1 ? fmt::format(", the first of {}", grouped(static_cast<long long>(tally.count)))
+                           : "";
+  }
+
+  std::string sentence(const Tally& tally, const std::string& what) const {
+    return fmt::format("{}{}: {}", network_.place_of_vessel(tally.first), others(tally), what);
   }
 
   void tell_radii() {
-    const auto radius = [&](const Tally& tally) { return quantity(g_.radius[tally.first], "m"); };
-    tell(wide_, fmt::format("radius {}, above {}, that of the widest aortas: is the unit right?",
-                            radius(wide_), quantity(widest, "m")));
-    tell(narrow_, fmt::format("radius {}, below {}, narrower than capillaries: is the unit right?",
-                              radius(narrow_), quantity(narrowest, "m")));
+    const auto warn = [&](const Tally& tally, double limit, const char* what) {
+      if (tally.count == 0) return;
+      found_.warnings.push_back(
+          sentence(tally, fmt::format("radius {}, {} {}: is the unit right?",
+                                      quantity(g_.radius[tally.first], "m"), what, quantity(limit, "m"))));
+    };
+    warn(wide_, widest, "wider than any vessel, above");
+    warn(narrow_, narrowest, "narrower than capillaries, below");
   }
 
   void tell_lengths() {
     if (shorter_than_drawn_.count > 0) {
       const std::size_t v = shorter_than_drawn_.first;
-      tell(shorter_than_drawn_,
-           fmt::format("length {}, but its ends are {} apart: are the coordinates a sketch?",
-                       quantity(g_.length[v], "m"), quantity(distance_of_ends(v), "m")));
+      found_.notes.push_back(
+          sentence(shorter_than_drawn_,
+                   fmt::format("length {}, but its ends are {} apart: are the coordinates a sketch?",
+                               quantity(g_.length[v], "m"), quantity(distance_of_ends(v), "m"))));
     }
     if (static_cast<double>(short_.count) <= many_short_branches * static_cast<double>(branches_)) return;
-    tell(short_, fmt::format("length {}, below the radius, {}: are the units right?",
-                             quantity(g_.length[short_.first], "m"), quantity(g_.radius[short_.first], "m")));
+    found_.warnings.push_back(sentence(
+        short_, fmt::format("length {}, below the radius, {}: are the units right?",
+                            quantity(g_.length[short_.first], "m"), quantity(g_.radius[short_.first], "m"))));
   }
 
   void tell_pressures() {
     if (arterial_.count == 0) return;
     const BoundaryCondition& c = network_.conditions[arterial_.first];
-    sentences_.push_back(fmt::format(
+    found_.warnings.push_back(fmt::format(
         "{}: junction {}{}: {} at the end of a vessel narrower than {}, where blood has less: is the unit of "
         "lengths right?",
-        network_.file, g_.name_of_junction(c.junction),
-        arterial_.count > 1
-            ? fmt::format(", the first of {}", grouped(static_cast<long long>(arterial_.count)))
-            : "",
-        mmhg(c.value), quantity(2 * capillary_radius, "m")));
+        network_.file, g_.name_of_junction(c.junction), others(arterial_), mmhg(c.value),
+        quantity(2 * capillary_radius, "m")));
   }
 
   const BoundedGraph& network_;
@@ -133,7 +137,7 @@ class Look {
   Tally wide_, narrow_, short_, shorter_than_drawn_;  ///< vessels
   Tally arterial_;                                    ///< numbers of conditions
   Faults faults_;
-  std::vector<std::string> sentences_;
+  Improbable found_;
 };
 
 }  // namespace
@@ -148,8 +152,8 @@ std::string impossible_condition(BoundaryCondition::Kind kind, double value) {
   return {};
 }
 
-std::vector<std::string> improbable(const BoundedGraph& network) {
-  return Look(network).sentences();
+Improbable improbable(const BoundedGraph& network) {
+  return Look(network).found();
 }
 
 }  // namespace rhexis::network

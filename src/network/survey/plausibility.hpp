@@ -13,11 +13,15 @@ namespace rhexis::network {
 /// Vessels burst below 1 MPa; the heart of a blue whale pumps less than 1000 L/min.
 std::string impossible_condition(BoundaryCondition::Kind kind, double value);
 
-/// Sentences on what is improbable, each with how many vessels or ends are so and the first of them: radii
-/// above 3 cm or below 1 um, lengths below the distance of the ends, many branches shorter than their radius,
-/// pressures of arteries at ends of capillaries. Throws InputError with every vessel that is shorter than a
-/// twentieth of the distance of its ends (less may be in sketches not drawn to scale), and every condition
-/// that is impossible.
-std::vector<std::string> improbable(const BoundedGraph& network);
+/// What is improbable, in sentences with how many vessels or ends are so and the first of them.
+struct Improbable {
+  std::vector<std::string> warnings, notes;
+};
+
+/// Warns of radii above 3 cm or below 1 um, of branches shorter than their radius where these are more than a
+/// tenth, and of pressures of arteries at ends of capillaries; notes lengths below the distance of the ends,
+/// as sketches have that are not drawn to scale. Throws InputError with every vessel that is shorter than a
+/// twentieth of that distance, and every condition that is impossible.
+Improbable improbable(const BoundedGraph& network);
 
 }  // namespace rhexis::network

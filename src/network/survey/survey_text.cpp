@@ -78,7 +78,7 @@ std::vector<SurveyLine> survey_lines(const NetworkSurvey& s) {
 }
 
 std::vector<std::string> survey_warnings(const NetworkSurvey& s) {
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings = s.warnings;
   if (s.open_ends.count > 0) {
     const bool one = s.open_ends.count == 1;
     warnings.push_back(fmt::format(

@@ -117,7 +117,8 @@ const std::vector<Expected> cases{
      {{"j.csv", j}, {"v.csv", "id,from,to,diameter [m],length [um]\n1,in,out,5.56,1500\n"}},
      2.78,
      1.5e-3,
-     {"v.csv:2: vessel 1: radius 2.78 m, above 30 mm", "length 1.5 mm, below the radius, 2.78 m"}},
+     {"v.csv:2: vessel 1: radius 2.78 m, wider than any vessel, above 30 mm",
+      "length 1.5 mm, below the radius, 2.78 m"}},
     {"vessels for junctions",
      {{"v.csv", "id,from,to,radius [um]\n1,in,out,5\n"}, {"j.csv", j}},
      0,
@@ -287,7 +288,8 @@ const std::string graphml_head =
 <key id="x" for="node" attr.name="X" attr.type="double"/><key id="y" for="node" attr.name="y"/><key id="z" for="node" attr.name="z"><default>0</default></key>
 <key id="p" for="node" attr.name="pressure [mmHg]"/><key id="r" for="edge" attr.name="radius [um]"/><key id="n" for="all" attr.name="name"/><key id="w" for="edge" attr.name="weight"/>
 <graph edgedefault="undirected">)";
-const std::string graphml_nodes = R"(<node id="a"><data key="x"> 0 </data><data key="y">0</data><data key="p">35</data></node>
+const std::string graphml_nodes =
+    R"(<node id="a"><data key="x"> 0 </data><data key="y">0</data><data key="p">35</data></node>
 <node id='b&amp;c'><data key="x">3</data><data key="y"><![CDATA[4]]></data><data key="n">&#x41;&#66;</data></node>)";
 
 TEST_F(ForeignNetworks, GraphMlIsRead) {

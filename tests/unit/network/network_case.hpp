@@ -72,10 +72,11 @@ class NetworkCase : public testing::Test {
     }
   }
 
-  /// All notes, one a line.
+  /// All notes and warnings, one a line.
   static std::string notes_of(const BoundedGraph& network) {
     std::string all;
-    for (const std::string& note : network.notes) all += note + "\n";
+    for (const auto* sentences : {&network.notes, &network.warnings})
+      for (const std::string& sentence : *sentences) all += sentence + "\n";
     return all;
   }
 

@@ -141,17 +141,20 @@ TEST_F(Repair, SlipsAreTold) {
     BoundedGraph network;
     std::string sentence;
   };
-  for (const Case& c :
-       std::vector<Case>{{vessel(12e-3, 0.3, 0.3), ""},  // an aorta
-                         {vessel(2e-6, 60e-6, 59e-6), ""},
-                         {vessel(1e-3, 0.0992, 0.1), ""},  // rounded
-                         {vessel(40e-3, 0.3, 0.3), "v.csv:2: vessel 0: radius 40 mm, above 30 mm"},
-                         {vessel(0.9e-6, 0.3, 0.3), "v.csv:2: vessel 0: radius 900 nm, below 1 um"},
-                         {vessel(1e-3, 0.05, 0.1), "length 50 mm, but its ends are 100 mm apart"},
-                         {vessel(5e-3, 2e-3, 2e-3), "length 2 mm, below the radius, 5 mm"},
-                         {vessel(2e-6, 2e-5, 2e-5, 100 * 133.322),
-                          "junction 0: 100 mmHg at the end of a vessel narrower than 20 um"}}) {
-    const std::vector<std::string> sentences = improbable(c.network);
+  for (const Case& c : std::vector<Case>{
+           {vessel(12e-3, 0.3, 0.3), ""},  // an aorta
+           {vessel(2e-6, 60e-6, 59e-6), ""},
+           {vessel(1e-3, 0.0992, 0.1), ""},  // rounded
+           {vessel(40e-3, 0.3, 0.3), "v.csv:2: vessel 0: radius 40 mm, wider than any vessel, above 30 mm"},
+           {vessel(0.9e-6, 0.3, 0.3),
+            "v.csv:2: vessel 0: radius 900 nm, narrower than capillaries, below 1 um"},
+           {vessel(1e-3, 0.05, 0.1), "length 50 mm, but its ends are 100 mm apart"},
+           {vessel(5e-3, 2e-3, 2e-3), "length 2 mm, below the radius, 5 mm"},
+           {vessel(2e-6, 2e-5, 2e-5, 100 * 133.322),
+            "junction 0: 100 mmHg at the end of a vessel narrower than 20 um"}}) {
+    const Improbable found = improbable(c.network);
+    std::vector<std::string> sentences = found.warnings;
+    sentences.insert(sentences.end(), found.notes.begin(), found.notes.end());
     ASSERT_EQ(sentences.size(), c.sentence.empty() ? 0u : 1u) << sentences.back();
     if (!c.sentence.empty()) {
       EXPECT_NE(sentences[0].find(c.sentence), std::string::npos) << sentences[0];
