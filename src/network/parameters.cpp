@@ -76,6 +76,14 @@ ParameterList declare(Parameters& p) {
                   "(\"dead_ends\"). What is left out is told.",
        .choices = {"self_loops", "islands", "dead_ends"},
        .only_with = {when("network.source", Source::file)}},
+      {.key = "network.reference_pressure",
+       .target = &p.reference_pressure,
+       .unit = "Pa",
+       .default_in = "mmHg",
+       .meaning =
+           "Pressure at one end of each part of a network from files at whose ends only flows are known, "
+           "which must sum to zero: at the end where most flows out. None: such a part is refused.",
+       .only_with = {when("network.source", Source::file)}},
       {.key = "network.tier",
        .target = &p.tier,
        .meaning = "How the network is held: \"implicit\" (trees only: nothing is stored), \"explicit\" (all "

@@ -46,6 +46,7 @@ struct Parameters {
   std::string file_length_unit;   ///< of files that do not tell theirs; empty: not given
   std::vector<std::string> drop;  ///< "self_loops", "islands", "dead_ends"
   std::vector<EndCondition> conditions;
+  std::optional<double> reference_pressure;  ///< Pa, of parts where only flows are known
   Tier tier = Tier::automatic;
   bool statistics = true;
   std::vector<std::string> query;

@@ -145,7 +145,10 @@ class ExplicitSolver final : public FlowSolver {
     if (!blood.phase_separation) return flow_of({});
     HaematocritFlow found =
         find_haematocrit(network_.graph, flow_of,
-                         {blood.viscosity.haematocrit, blood.phase_tolerance, blood.phase_iterations});
+                         {.inflow_haematocrit = blood.viscosity.haematocrit,
+                          .entering = entering_haematocrit(network_, blood.viscosity.haematocrit),
+                          .tolerance = blood.phase_tolerance,
+                          .max_iterations = blood.phase_iterations});
     if (!found.converged) {
       s.warnings.push_back(
           fmt::format("haematocrits have not converged in {} iterations: they still change by {:.1e} "

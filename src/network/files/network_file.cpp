@@ -10,6 +10,7 @@
 #include "network/files/vtp_network.hpp"
 #include "network/repair/drop.hpp"
 #include "network/repair/end_conditions.hpp"
+#include "network/repair/reference_pressure.hpp"
 #include "network/survey/plausibility.hpp"
 
 namespace rhexis::network {
@@ -86,6 +87,7 @@ BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
   set_end_conditions(parameters.conditions, network);
   if (drops("islands")) drop_islands(network);
   if (drops("dead_ends")) drop_dead_ends(network);
+  set_reference_pressure(parameters.reference_pressure, network);
   Improbable found = improbable(network);
   network.warnings = std::move(found.warnings);
   network.notes.insert(network.notes.end(), found.notes.begin(), found.notes.end());

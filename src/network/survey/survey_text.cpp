@@ -86,7 +86,8 @@ std::vector<std::string> survey_warnings(const NetworkSurvey& s) {
         one ? "an end of the network has" : number(s.open_ends.count) + " ends of the network have",
         list_of(s.open_ends)));
   }
-  if (s.parts_with_one_opening.count > 0) {
+  // Where nothing flows at all, the solution says so.
+  if (s.parts_with_one_opening.count > 0 && s.parts_with_one_opening.count < s.parts) {
     warnings.push_back(
         fmt::format("nothing flows in {} of the network, with one condition only; first junction: {}",
                     counted(s.parts_with_one_opening.count, "part"), list_of(s.parts_with_one_opening)));

@@ -88,8 +88,18 @@ Directed direct(const network::Graph& g, const GraphFlow& flow, double least) {
 
 }  // namespace
 
+std::vector<double> entering_haematocrit(const network::BoundedGraph& network, double usual) {
+  std::vector<double> entering;
+  for (const network::BoundaryCondition& condition : network.conditions) {
+    if (!condition.haematocrit) continue;
+    entering.resize(network.graph.junctions, usual);
+    entering[condition.junction] = *condition.haematocrit;
+  }
+  return entering;
+}
+
 std::vector<double> carried_haematocrit(const network::Graph& g, const GraphFlow& flow,
-                                        double inflow_haematocrit) {
+                                        double inflow_haematocrit, std::span<const double> entering) {
   double largest = 0;
   for (const double q : flow.flow) largest = std::max(largest, std::abs(q));
   Directed d = direct(g, flow, no_flow * largest);
@@ -101,7 +111,8 @@ std::vector<double> carried_haematocrit(const network::Graph& g, const GraphFlow
     for (std::uint32_t k = begin; k < end; ++k) out += std::abs(flow.flow[d.vessel[k]]);
     // What does not arrive through vessels enters the network here.
     const double enters = std::max(0.0, out - d.inflow[j]);
-    const double mixed = (d.cells[j] + enters * inflow_haematocrit) / (d.inflow[j] + enters);
+    const double mixed = (d.cells[j] + enters * (entering.empty() ? inflow_haematocrit : entering[j])) /
+                         (d.inflow[j] + enters);
     const bool bifurcates =
         end - begin == 2 && d.arrivals[j] == 1 && enters <= no_flow * largest + 1e-9 * out;
     for (std::uint32_t k = begin; k < end; ++k) haematocrit[d.vessel[k]] = mixed;
@@ -137,7 +148,8 @@ HaematocritFlow find_haematocrit(const network::Graph& graph, const FlowOfHaemat
     solver_iterations += result.flow.iterations;
     // What is reported is carried by the flow that is reported: cells are conserved whether this has
     // converged or not.
-    result.haematocrit = carried_haematocrit(graph, result.flow, options.inflow_haematocrit);
+    result.haematocrit =
+        carried_haematocrit(graph, result.flow, options.inflow_haematocrit, options.entering);
     result.change = 0;
     for (std::size_t v = 0; v < used.size(); ++v) {
       result.change = std::max(result.change, std::abs(result.haematocrit[v] - used[v]));

@@ -20,8 +20,9 @@
 namespace rhexis::hemodynamics {
 
 struct HaematocritOptions {
-  double inflow_haematocrit = 0.45;  ///< discharge haematocrit of all blood that enters
-  double tolerance = 1e-8;           ///< largest change of a vessel's haematocrit in a full step
+  double inflow_haematocrit = 0.45;   ///< discharge haematocrit of blood that enters, where no other is given
+  std::vector<double> entering = {};  ///< [J] the same of each junction; empty: inflow_haematocrit everywhere
+  double tolerance = 1e-8;            ///< largest change of a vessel's haematocrit in a full step
   std::int64_t max_iterations = 200;
 };
 
@@ -36,9 +37,13 @@ struct HaematocritFlow {
 /// Flow for the haematocrits [V] of all vessels.
 using FlowOfHaematocrit = std::function<GraphFlow(std::span<const double> haematocrit)>;
 
+/// [J] discharge haematocrit of blood that enters at each junction: that of its condition, else `usual`.
+/// Empty where no condition has one.
+std::vector<double> entering_haematocrit(const network::BoundedGraph& network, double usual);
+
 /// Haematocrits [V] that a given flow carries through the network.
 std::vector<double> carried_haematocrit(const network::Graph& graph, const GraphFlow& flow,
-                                        double inflow_haematocrit);
+                                        double inflow_haematocrit, std::span<const double> entering = {});
 
 HaematocritFlow find_haematocrit(const network::Graph& graph, const FlowOfHaematocrit& solve,
                                  const HaematocritOptions& options);

@@ -24,6 +24,21 @@ namespace rhexis::hemodynamics {
 using network::Graph;
 using network::TreePair;
 
+namespace {
+
+void note_unused_haematocrits(const FlowProblem& problem, network::BoundedGraph& network) {
+  if (problem.blood.phase_separation) return;
+  const auto given = std::ranges::count_if(
+      network.conditions, [](const network::BoundaryCondition& c) { return c.haematocrit.has_value(); });
+  if (given > 0)
+    network.notes.push_back(
+        fmt::format("the haematocrits that are given at {} end{} are used only with "
+                    "blood.phase_separation = true; now all blood has blood.haematocrit",
+                    grouped(given), given > 1 ? "s" : ""));
+}
+
+}  // namespace
+
 network::BoundedGraph make_graph_network(const FlowProblem& problem, const Hydrostatic& hydrostatic) {
   network::BoundedGraph network;
   if (problem.network.is_tree()) {
@@ -35,6 +50,7 @@ network::BoundedGraph make_graph_network(const FlowProblem& problem, const Hydro
     return network;
   }
   network = network::read_network(problem.network, problem.to_si);
+  note_unused_haematocrits(problem, network);
   const Graph& g = network.graph;
   if (!hydrostatic.acts()) return network;
   if (g.x.empty())

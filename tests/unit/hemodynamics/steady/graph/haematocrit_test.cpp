@@ -115,6 +115,31 @@ TEST(Haematocrit, NotConvergingIsReportedAndCellsAreConservedAllTheSame) {
   EXPECT_LT(worst_imbalance(p, r), 1e-13);
 }
 
+TEST(Haematocrit, InletsBringTheirOwn) {
+  // 0 and 1 flow into 2, from there all flows on to 3, where 4 joins with the usual haematocrit.
+  network::BoundedGraph network;
+  network.graph.junctions = 6;
+  network.graph.from = {0, 1, 2, 4, 3};
+  network.graph.to = {2, 2, 3, 3, 5};
+  network.graph.radius = std::vector<double>(5, 10e-6);
+  network.graph.length = std::vector<double>(5, 1e-4);
+  using Kind = network::BoundaryCondition::Kind;
+  network.conditions = {{0, Kind::flow, 1e-13, 0, 0.3},
+                        {1, Kind::flow, 3e-13, 0, 0.0},
+                        {4, Kind::flow, 4e-13, 0, std::nullopt},
+                        {5, Kind::pressure, 1000, 0, 0.6}};  // nothing enters there
+  const Problem p{network.graph, network.conditions};
+  const HaematocritFlow r =
+      find_haematocrit(p.graph, [&](std::span<const double> h) { return p.solve(h); },
+                       {.inflow_haematocrit = 0.4, .entering = entering_haematocrit(network, 0.4)});
+  EXPECT_TRUE(r.converged);
+  const double expected[] = {0.3, 0, 0.3 / 4, 0.4, (0.3 + 4 * 0.4) / 8};
+  for (std::size_t v = 0; v < 5; ++v) EXPECT_NEAR(r.haematocrit[v], expected[v], 1e-12) << v;
+  // Of inlets without any, nothing is kept for each junction.
+  for (network::BoundaryCondition& condition : network.conditions) condition.haematocrit.reset();
+  EXPECT_TRUE(entering_haematocrit(network, 0.4).empty());
+}
+
 TEST(Haematocrit, DeadEndsKeepTheInflowsHaematocrit) {
   Problem p = random_tree(3);
   p.graph.from.push_back(3);
