@@ -80,6 +80,7 @@ const ut_system* unit_system() {
 }
 
 Unit parse_unit(std::string_view text) {
+  if (text == "g0") text = "gravity";  // to UDUNITS it is a gram to the power of 0
   return Unit{ut_parse(unit_system(), std::string(text).c_str(), UT_UTF8)};
 }
 

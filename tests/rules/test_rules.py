@@ -49,6 +49,13 @@ ROOMS = {
         "statics": {"bonds", "engine", "geometry", "laws", "stability"},
         "simulation": {"engine", "loads", "monitors", "statics"},
     },
+    "network": {
+        "tree": set(),
+        "files": {"lines", "repair", "survey"},
+        "lines": {"files"},
+        "repair": set(),
+        "survey": set(),
+    },
     "scenes": {
         "vessel": set(),
         "network": set(),

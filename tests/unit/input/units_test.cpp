@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "core/error.hpp"
 
 namespace rhexis::input {
@@ -39,6 +41,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Conversion{"10 dyn/cm2", "Pa", 1}, Conversion{"5 L/min", "m3/s", 5e-3 / 60},
                     Conversion{"70 1/min", "1/s", 70. / 60}, Conversion{"1 mm^2", "m2", 1e-6},
                     Conversion{"2 m5", "m5", 2}));
+
+TEST(Units, StandardGravity) {
+  for (const char* unit : {"g0", "gravity", "standard_free_fall"})
+    EXPECT_DOUBLE_EQ(to_si(std::string("-2 ") + unit, "m/s2"), -2 * 9.80665) << unit;
+}
 
 TEST(Units, RoundFactorsAreExact) {
   // Lattices are counted with these: 2 mm / 100 um must be 20, not 20.000000000000004.
