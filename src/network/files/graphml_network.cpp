@@ -102,6 +102,7 @@ class Reader {
     }
   }
 
+  /// A declaration of an attribute, with its <default> where it has one.
   void read_key() {
     Key key{xml_.attribute("attr.name"), xml_.attribute("for"), {}};
     const std::string id = xml_.attribute("id");
@@ -139,8 +140,8 @@ class Reader {
     }
   }
 
-  /// The element that has begun, read to its end: its attributes by `attributes`.
-  Record read_element(const std::unordered_map<std::string, Attribute>& attributes) {
+  /// The element that has begun, with the values that its attributes have by default.
+  Record begun_element(const std::unordered_map<std::string, Attribute>& attributes) {
     Record record(xml_.where(), xml_.line());
     for (const auto& [id, attribute] : attributes) {
       const std::string& value = keys_[id].default_value;
@@ -150,6 +151,7 @@ class Reader {
     return record;
   }
 
+  /// Reads the element to its end, and its data into `record`.
   void read_data(Record& record, const std::unordered_map<std::string, Attribute>& attributes) {
     std::string key;
     for (int depth = 1; depth > 0;) {
@@ -166,7 +168,7 @@ class Reader {
   }
 
   void read_node() {
-    Record record = read_element(node_attributes_);
+    Record record = begun_element(node_attributes_);
     record.set("id", xml_.attribute("id"));
     read_data(record, node_attributes_);
     builder_.add_junction(record);
@@ -174,7 +176,7 @@ class Reader {
 
   /// Without an id of its own an edge has its number, from 0.
   void read_edge() {
-    Record record = read_element(edge_attributes_);
+    Record record = begun_element(edge_attributes_);
     const std::string id = xml_.attribute("id");
     record.set("id", id.empty() ? std::to_string(edges_.size()) : id);
     record.set("from", xml_.attribute("source"));

@@ -48,7 +48,6 @@ class Reader {
       read_list("boundary nodes", 3, [&](const Line& line) { read_boundary_node(line); });
     });
     if (is_whole) add_all();
-    builder_.use_length_unit();
     return builder_.finish(file_);
   }
 

@@ -23,6 +23,17 @@ constexpr double many_short_branches = 0.1;                   ///< share of all 
 constexpr double capillary_radius = 10e-6;                    ///< m
 constexpr double capillary_pressure = 80 * pascals_per_mmhg;  ///< Pa
 
+/// Why a pressure (Pa) or a flow (m3/s) given at an end is none of blood in a vessel; empty: it may be.
+std::string impossible_condition(BoundaryCondition::Kind kind, double value) {
+  if (kind == BoundaryCondition::Kind::pressure && std::abs(value) > highest_pressure)
+    return fmt::format("a pressure of {}, beyond {}: is the unit right?", mmhg(value),
+                       mmhg(highest_pressure));
+  if (kind == BoundaryCondition::Kind::flow && std::abs(value) > largest_flow)
+    return fmt::format("a flow of {} L/min, beyond {} L/min: is the unit right?",
+                       text(value * litres_per_minute), text(largest_flow * litres_per_minute));
+  return {};
+}
+
 /// Items that are improbable alike, of which the first is told.
 struct Tally {
   std::size_t count = 0, first = 0;
@@ -141,16 +152,6 @@ class Look {
 };
 
 }  // namespace
-
-std::string impossible_condition(BoundaryCondition::Kind kind, double value) {
-  if (kind == BoundaryCondition::Kind::pressure && std::abs(value) > highest_pressure)
-    return fmt::format("a pressure of {}, beyond {}: is the unit right?", mmhg(value),
-                       mmhg(highest_pressure));
-  if (kind == BoundaryCondition::Kind::flow && std::abs(value) > largest_flow)
-    return fmt::format("a flow of {} L/min, beyond {} L/min: is the unit right?",
-                       text(value * litres_per_minute), text(largest_flow * litres_per_minute));
-  return {};
-}
 
 Improbable improbable(const BoundedGraph& network) {
   return Look(network).found();

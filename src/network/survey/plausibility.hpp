@@ -9,10 +9,6 @@
 
 namespace rhexis::network {
 
-/// Why a pressure (Pa) or a flow (m3/s) given at an end is none of blood in a vessel; empty: it may be.
-/// Vessels burst below 1 MPa; the heart of a blue whale pumps less than 1000 L/min.
-std::string impossible_condition(BoundaryCondition::Kind kind, double value);
-
 /// What is improbable, in sentences with how many vessels or ends are so and the first of them.
 struct Improbable {
   std::vector<std::string> warnings, notes;
@@ -21,7 +17,8 @@ struct Improbable {
 /// Warns of radii above 3 cm or below 1 um, of branches shorter than their radius where these are more than a
 /// tenth, and of pressures of arteries at ends of capillaries; notes lengths below the distance of the ends,
 /// as sketches have that are not drawn to scale. Throws InputError with every vessel that is shorter than a
-/// twentieth of that distance, and every condition that is impossible.
+/// twentieth of that distance, and every pressure and flow at an end that no circulation has: vessels burst
+/// below 1 MPa; the heart of a blue whale pumps less than 1000 L/min.
 Improbable improbable(const BoundedGraph& network);
 
 }  // namespace rhexis::network

@@ -242,7 +242,9 @@ const std::string secomb =
     "3  boundary nodes\nnode bctyp press/flow Hd PO2\n1 0 40. 0.45 90.\n3 7 -3. 0.35\n4 2 1 0.4\n";
 
 TEST_F(ForeignNetworks, SecombsFilesAreRead) {
-  const BoundedGraph n = network({{"network.dat", secomb}});
+  Parameters p;
+  p.file_length_unit = "mm";
+  const BoundedGraph n = network({{"network.dat", secomb}}, p);
   ASSERT_EQ(n.graph.vessels(), 2u);
   EXPECT_EQ(n.graph.name_of_vessel(1), "12");
   EXPECT_NEAR(n.graph.radius[1], 3.5e-6, 1e-20);
@@ -254,8 +256,8 @@ TEST_F(ForeignNetworks, SecombsFilesAreRead) {
   EXPECT_EQ(n.conditions[1].kind, BoundaryCondition::Kind::flow);
   EXPECT_NEAR(n.conditions[1].value, -3e-12 / 60, 1e-25);
   EXPECT_EQ(n.conditions[1].haematocrit, 0.35);
-  for (const char* part :
-       {"1 segments of other types than 4 and 5", "the first is 13", "1 boundary nodes are no segment's end"})
+  for (const char* part : {"1 segments of other types than 4 and 5", "the first is 13",
+                           "1 boundary nodes are no segment's end", "network.file_length_unit is not used"})
     EXPECT_NE(notes_of(n).find(part), std::string::npos) << part << "\n" << notes_of(n);
 }
 
