@@ -22,6 +22,7 @@
 #include "scenes/coupled/coupled_files.hpp"
 #include "scenes/coupled/coupled_run.hpp"
 #include "scenes/ensemble/ensemble_run.hpp"
+#include "scenes/network/network_page.hpp"
 #include "scenes/network/network_run.hpp"
 #include "scenes/vessel/vessel_files.hpp"
 #include "scenes/vessel/vessel_run.hpp"
@@ -118,6 +119,30 @@ void check_all(const Command& command, parallel::Communicator comm) {
   for (const std::string& text : unfinished_runs(options, comm)) console.item("results", text);
 }
 
+/// The network of the files, or of the scene, that `rhexis network` is given. Throws InputError.
+network::Parameters named_network(const Command& command, parallel::Communicator comm) {
+  const std::vector<std::string>& files = command.network_files;
+  network::Parameters named;
+  if (files.size() != 1 || std::filesystem::path(files[0]).extension() != ".toml") {
+    named.files = files;
+    named.file_length_unit = command.length_unit;
+    return named;
+  }
+  if (!command.length_unit.empty())
+    throw InputError(files[0] +
+                     ": a scene tells the unit by network.file_length_unit; leave out --length-unit");
+  runtime::Console console(comm.is_root(), true);
+  scenes::Reading reading = reading_for(command, comm, console);
+  const Configuration configuration = read_configuration(files[0], {}, reading);
+  std::visit(
+      [&](const auto& scene) {
+        if constexpr (requires { scene.network.problem; }) named = scene.network.problem.network;
+      },
+      configuration);
+  if (named.files.empty()) throw InputError(files[0] + ": the scene has no network from files");
+  return named;
+}
+
 }  // namespace
 
 Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
@@ -150,6 +175,22 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
   run->add_flag("--overwrite", command.overwrite,
                 "Replace files in the folder for results that no run made (never one that this run reads)");
   run->add_flag("--quiet", command.quiet, "Print errors only");
+  CLI::App* network = cli.add_subcommand(
+      "network", "Tell what a network is like: parts, ends, ranges, vessels without flow, slips");
+  network
+      ->add_option("FILES", command.network_files,
+                   "The files of a network (see network.files), or a scene that names them (TOML)")
+      ->required()
+      ->expected(1, 2)
+      ->check(a_name);
+  network
+      ->add_option("--length-unit", command.length_unit, "Unit of lengths in files that cannot tell, e.g. mm")
+      ->check(a_name);
+  network
+      ->add_option("-o,--output", command.directory,
+                   "Write the network as read and repaired, in SI: a .json or .vtp file")
+      ->check(a_name);
+  network->add_flag("--overwrite", command.overwrite, "Replace that file");
   keys->add_option("SECTION", command.section, "One section, or one key (section.key)");
 
   try {
@@ -165,7 +206,10 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
     command.status = asked ? told(comm) : 2;
     return command;
   }
-  command.action = run->parsed() ? Action::run : check->parsed() ? Action::check : Action::keys;
+  command.action = run->parsed()       ? Action::run
+                   : check->parsed()   ? Action::check
+                   : network->parsed() ? Action::network
+                                       : Action::keys;
   return command;
 }
 
@@ -205,6 +249,10 @@ int carry_out(const Command& command, parallel::Communicator comm) {
   }
   if (command.action == Action::check) {
     check_all(command, comm);
+    return told(comm);
+  }
+  if (command.action == Action::network) {
+    scenes::print_network_page(named_network(command, comm), {command.directory, command.overwrite}, comm);
     return told(comm);
   }
   const runtime::Ending ending = run(command, comm);

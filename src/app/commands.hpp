@@ -11,15 +11,18 @@
 
 namespace rhexis::app {
 
-enum class Action { run, check, keys, nothing };
+enum class Action { run, check, network, keys, nothing };
 
 struct Command {
   Action action = Action::nothing;
   std::string file;
-  std::vector<std::string> overrides;  ///< the arguments of --set, each "key=value"
-  std::string directory;               ///< the argument of -o; empty: results/ and the name of the input file
-  std::string restart;                 ///< checkpoint
-  std::string section;                 ///< the argument of `rhexis keys`
+  std::vector<std::string> network_files;  ///< of `rhexis network`: a scene, or the files of a network
+  std::string length_unit;                 ///< the argument of --length-unit
+  std::vector<std::string> overrides;      ///< the arguments of --set, each "key=value"
+  std::string directory;  ///< the argument of -o; empty: results/ and the name of the input file
+                          ///< (of `rhexis network`, which writes a file there: nothing)
+  std::string restart;    ///< checkpoint
+  std::string section;    ///< the argument of `rhexis keys`
   bool overwrite = false;
   bool quiet = false;
   bool embedded = false;               ///< in another program: runtime::RunOptions

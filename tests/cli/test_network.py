@@ -386,6 +386,30 @@ class Network(unittest.TestCase):
                 if warning and "Reynolds" in warning:
                     self.assertGreater(record["results"]["network"]["highest_reynolds"], 2300)
 
+    def test_a_page_about_a_network(self):
+        self.write("n.toml", FILES)
+        self.write("j.csv", JUNCTIONS + "d,0,0,1,\n")
+        self.write("v.csv", VESSELS.replace("2,b,c,40", "2,b,c,40\n3,b,d,30"))
+        pages = [self.rhexis("network", *files) for files in (("j.csv", "v.csv"), ("n.toml",))]
+        for page in pages:
+            self.assertEqual(page.returncode, 0, page.stderr)
+            for part in ("vessels     3", "junctions   4", "3 ends, 2 conditions", "no flow     in 1 of 3 vessels", "radii of the vessels", "####", "can be solved"):
+                self.assertIn(part, page.stdout)
+            self.assertIn("no condition, so that nothing flows there: d", page.stderr)
+        # What is written can be read again, gives the same flow, and is not written over another file.
+        self.assertEqual(self.rhexis("network", "j.csv", "v.csv", "-o", "clean.json").returncode, 0)
+        self.run_well("n.toml", "-o", "first")
+        self.run_well("n.toml", "--set", "network.files=['clean.json']", "-o", "again")
+        first, again = ((self.path / folder / "vessels.csv").read_text() for folder in ("first", "again"))
+        self.assertEqual(first, again)
+        for arguments, message in ((("j.csv", "v.csv", "-o", "clean.json"), "--overwrite"), (("clean.json", "-o", "clean.json", "--overwrite"), "is read from this file"),
+                                   (("j.csv", "v.csv", "-o", "clean.txt"), ".json or .vtp"), (("j.csv",), "two .csv files"), (("gone.json",), "gone.json"),
+                                   (("x.vtp",), "--length-unit mm")):
+            result = self.rhexis("network", *arguments)
+            self.assertEqual(result.returncode, 2, message)
+            self.assertIn(message, result.stderr)
+        self.assertEqual(self.rhexis("network", "j.csv", "v.csv", "-o", "clean.json", "--overwrite").returncode, 0)
+
     def test_vtp_files_without_paraview_are_refused_at_once(self):
         self.write("n.toml", TREE)
         for command in ("check", "run"):

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// A network as it was read and repaired, in SI with its conditions: a file that can be read again.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "network/graph.hpp"
+
+namespace rhexis::network {
+
+/// A JSON file (see network_file.hpp) that holds all of the network; to read it gives the same network.
+std::string json_of(const BoundedGraph& network);
+
+/// Throws InputError, naming `path`, where a VTP file cannot hold the network: without coordinates, or with
+/// resistances or haematocrits at its ends.
+void check_fits_vtp(const BoundedGraph& network, const std::filesystem::path& path);
+
+/// The network in metres as a VTP file (see vtp_network.hpp). Names are not in it. Throws RunError.
+void write_vtp_network(const std::filesystem::path& path, const BoundedGraph& network);
+
+}  // namespace rhexis::network
