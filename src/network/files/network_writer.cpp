@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "network/files/network_writer.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -62,7 +63,11 @@ void check_fits_vtp(const BoundedGraph& network, const std::filesystem::path& pa
   const auto refuse = [&](const char* what) {
     throw InputError(path.string() + ": a VTP file holds no " + what + "; give a name that ends in .json");
   };
-  if (network.graph.x.empty()) refuse("network without coordinates");
+  const Graph& g = network.graph;
+  if (g.x.empty()) refuse("network without coordinates");
+  const auto is_known = [](double thickness) { return thickness > 0; };
+  if (std::ranges::any_of(g.wall_thickness, is_known) && !std::ranges::all_of(g.wall_thickness, is_known))
+    refuse("wall thicknesses of some vessels alone");
   for (const BoundaryCondition& condition : network.conditions) {
     if (condition.resistance != 0) refuse("resistances at ends");
     if (condition.haematocrit) refuse("haematocrits at ends");

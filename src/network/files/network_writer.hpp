@@ -12,8 +12,8 @@ namespace rhexis::network {
 /// A JSON file (see network_file.hpp) that holds all of the network; to read it gives the same network.
 std::string json_of(const BoundedGraph& network);
 
-/// Throws InputError, naming `path`, where a VTP file cannot hold the network: without coordinates, or with
-/// resistances or haematocrits at its ends.
+/// Throws InputError, naming `path`, where a VTP file cannot hold the network: without coordinates, with
+/// the wall thickness of some vessels alone, or with resistances or haematocrits at its ends.
 void check_fits_vtp(const BoundedGraph& network, const std::filesystem::path& path);
 
 /// The network in metres as a VTP file (see vtp_network.hpp). Names are not in it. Throws RunError.

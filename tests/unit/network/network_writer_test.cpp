@@ -44,6 +44,8 @@ TEST_F(NetworkWriter, JsonHoldsAllOfANetwork) {
 
 TEST_F(NetworkWriter, WhatAVtpFileCannotHoldIsRefused) {
   BoundedGraph held = network({{"j.csv", junctions}, {"v.csv", vessels}});
+  refused([&] { check_fits_vtp(held, "clean.vtp"); }, {"clean.vtp", "wall thicknesses of some", ".json"});
+  held.graph.wall_thickness = {0, 0, 0};
   refused([&] { check_fits_vtp(held, "clean.vtp"); }, {"clean.vtp", "holds no haematocrits", ".json"});
   held.conditions[0].haematocrit.reset();
   refused([&] { check_fits_vtp(held, "clean.vtp"); }, {"holds no resistances"});
