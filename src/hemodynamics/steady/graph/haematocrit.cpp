@@ -13,7 +13,8 @@ namespace {
 constexpr double densest = 0.99;  ///< haematocrit; no room for more cells
 /// Flows below this share of the largest are round-off: they carry nothing.
 constexpr double no_flow = 1e-14;
-constexpr double smallest_step = 1.0 / 64;
+/// The step of a vessel whose haematocrit oscillates shrinks, that of any other grows.
+constexpr double shrinks = 0.5, grows = 1.1, smallest_step = 1e-4;
 
 /// Vessels at each junction, by the direction of their blood.
 struct Directed {
@@ -140,7 +141,7 @@ HaematocritFlow find_haematocrit(const network::Graph& graph, const FlowOfHaemat
                                  const HaematocritOptions& options) {
   HaematocritFlow result;
   std::vector<double> used(graph.vessels(), options.inflow_haematocrit);
-  double step = 1, before = INFINITY;
+  std::vector<double> step(graph.vessels(), 1.0), before(graph.vessels());
   std::int64_t solver_iterations = 0;
   while (result.iterations < options.max_iterations) {
     ++result.iterations;
@@ -152,13 +153,15 @@ HaematocritFlow find_haematocrit(const network::Graph& graph, const FlowOfHaemat
         carried_haematocrit(graph, result.flow, options.inflow_haematocrit, options.entering);
     result.change = 0;
     for (std::size_t v = 0; v < used.size(); ++v) {
-      result.change = std::max(result.change, std::abs(result.haematocrit[v] - used[v]));
+      const double change = result.haematocrit[v] - used[v];
+      result.change = std::max(result.change, std::abs(change));
+      const bool oscillates = change * before[v] < 0 && std::abs(change) > 0.5 * std::abs(before[v]);
+      step[v] = oscillates ? std::max(smallest_step, shrinks * step[v]) : std::min(1.0, grows * step[v]);
+      before[v] = change;
+      used[v] += step[v] * change;
     }
     result.converged = result.change <= options.tolerance;
     if (result.converged) break;
-    if (result.change > 0.9 * before) step = std::max(smallest_step, step / 2);
-    before = result.change;
-    for (std::size_t v = 0; v < used.size(); ++v) used[v] += step * (result.haematocrit[v] - used[v]);
   }
   result.flow.iterations = solver_iterations;
   return result;

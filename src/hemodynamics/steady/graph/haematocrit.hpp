@@ -4,9 +4,9 @@
 ///
 /// One round: conductances of the haematocrits (Eq. 9), flow; then, from high pressure to low, what enters a
 /// junction is mixed and passed on: at a bifurcation by phase separation (phase_separation.hpp), elsewhere in
-/// proportion to flow. The step towards the new haematocrits is halved when changes grow: with phase
-/// separation the plain iteration may oscillate. A vessel never passes on more cells than its outlet carries:
-/// haematocrits stay below 0.99, and what a branch cannot take goes to the other.
+/// proportion to flow. The step of a vessel towards its new haematocrit is halved while that oscillates: with
+/// phase separation the plain iteration may oscillate. A vessel never passes on more cells than its outlet
+/// carries: haematocrits stay below 0.99, and what a branch cannot take goes to the other.
 #pragma once
 
 #include <cstdint>
