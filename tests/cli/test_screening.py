@@ -174,6 +174,7 @@ class Screening(unittest.TestCase):
         found = rows(self.path / "out" / "screening.csv")
         self.assertEqual(len(found), 7)
         self.assertEqual(found[0]["vessel"], "b")
+        self.assertEqual({row["wall"] for row in found}, {"given"})
         for row in found:
             pressure = 0.5 * (float(row["pressure_from_Pa"]) + float(row["pressure_to_Pa"]))
             strain = pressure * (stress_factor(float(row["wall_thickness_m"]) / float(row["radius_m"])) + 0.25) / 3.5e6

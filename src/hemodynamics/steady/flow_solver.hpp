@@ -27,10 +27,11 @@ struct VesselProperties {
   network::VesselKind kind = network::VesselKind::unknown;
   int generation = -1;                                ///< -1: unknown
   double radius = 0, length = 0, wall_thickness = 0;  ///< m
-  double strength_factor = 1;                         ///< on the critical stretch of its wall
-  double flow = 0;                                    ///< m3/s, along the vessel
-  double pressure_from = 0, pressure_to = 0;          ///< Pa, at its ends, with the weight of blood
-  std::optional<std::array<double, 3>> start, end;    ///< m
+  bool wall_is_given = false;                 ///< its thickness by the file; else by the rules of [wall]
+  double strength_factor = 1;                 ///< on the critical stretch of its wall
+  double flow = 0;                            ///< m3/s, along the vessel
+  double pressure_from = 0, pressure_to = 0;  ///< Pa, at its ends, with the weight of blood
+  std::optional<std::array<double, 3>> start, end;  ///< m
 };
 
 /// A vessel of a network that has been solved.

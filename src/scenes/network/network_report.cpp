@@ -31,9 +31,10 @@ void print_screening(runtime::Console& console, const studies::SolvedNetwork& ne
   for (std::size_t i = 0; i < std::min(s.top.size(), most_said); ++i) {
     const hemodynamics::NetworkVessel& q = network.screened->at_risk[i];
     console.line(fmt::format(
-        "  {:>10.3f}  {}{}, radius {}, wall {}, {} to {}{}", s.top[i].risk, q.name,
+        "  {:>10.3f}  {}{}, radius {}, wall {}{}, {} to {}{}", s.top[i].risk, q.name,
         q.generation < 0 ? "" : fmt::format(" (generation {})", q.generation), quantity(q.radius, "m", 3),
-        quantity(q.wall_thickness, "m", 3), mmhg(q.pressure_from), mmhg(q.pressure_to),
+        quantity(q.wall_thickness, "m", 3), network.solution.survey && !q.wall_is_given ? " (assumed)" : "",
+        mmhg(q.pressure_from), mmhg(q.pressure_to),
         s.top[i].alike > 1 ? fmt::format(", one of {} alike", grouped(static_cast<long long>(s.top[i].alike)))
                            : ""));
   }

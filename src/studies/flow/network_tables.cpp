@@ -65,14 +65,14 @@ std::string histogram_table(const hemodynamics::TreeStatistics& s) {
 std::string screening_table(const screening::ScreenedNetwork& s) {
   std::string table =
       "rank,vessel,id,kind,generation,alike,risk,radius_m,wall_thickness_m,strength_factor,pressure_from_Pa,"
-      "pressure_to_Pa\n";
+      "pressure_to_Pa,wall\n";
   for (std::size_t i = 0; i < s.at_risk.size(); ++i) {
     const screening::RankedVessel& ranked = s.screening.top[i];
     const hemodynamics::NetworkVessel& q = s.at_risk[i];
-    fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{:.0f},{},{},{},{},{},{}\n", i + 1,
+    fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{:.0f},{},{},{},{},{},{},{}\n", i + 1,
                    quoted(q.name), q.vessel, network::name_of(q.kind), q.generation, ranked.alike,
-                   ranked.risk, q.radius, q.wall_thickness, q.strength_factor, q.pressure_from,
-                   q.pressure_to);
+                   ranked.risk, q.radius, q.wall_thickness, q.strength_factor, q.pressure_from, q.pressure_to,
+                   q.wall_is_given ? "given" : "assumed");
   }
   return table;
 }

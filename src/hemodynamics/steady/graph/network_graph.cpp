@@ -110,6 +110,7 @@ NetworkVessel describe_vessel(const Graph& g, const GraphFlow& flow, std::uint32
   q.radius = g.radius[v];
   q.length = g.length[v];
   q.wall_thickness = wall_thickness(g, v, mechanics);
+  q.wall_is_given = g.knows_wall(v);
   q.strength_factor = wall_factors(g, v, mechanics).strength;
   q.flow = flow.flow[v];
   q.pressure_from = flow.pressure[g.from[v]];
