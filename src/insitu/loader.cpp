@@ -37,8 +37,8 @@ std::string inspect_scripts(const Settings& settings, parallel::Communicator com
   reason = communicator.first_non_empty(reason);
   if (!reason.empty()) return reason;
   auto* inspect = reinterpret_cast<InspectScripts*>(dlsym(plugin, inspect_scripts_symbol));
-  parallel::together<InputError>(communicator, [&] { inspect(settings); });
-  return {};
+  parallel::together<InputError>(communicator, [&] { inspect(settings, reason); });
+  return communicator.first_non_empty(reason);
 }
 
 std::unique_ptr<Pipeline> load_pipeline(const Settings& settings, parallel::Communicator communicator) {

@@ -137,7 +137,7 @@ bool plugin_available();
 /// The plugin's entry points, found by name.
 using CreatePipeline = Pipeline*(const Settings&, parallel::Communicator);
 inline constexpr const char* create_pipeline_symbol = "rhexis_create_pipeline";
-using InspectScripts = void(const Settings&);
+using InspectScripts = void(const Settings&, std::string& obstacle);
 inline constexpr const char* inspect_scripts_symbol = "rhexis_inspect_scripts";
 
 }  // namespace rhexis::insitu

@@ -14,7 +14,7 @@ import numpy as np
 
 from coupled_case import ARTERY, BED, BLOOD_DENSITY, FEEDER, JUNCTIONS, MMHG, ONE_WAY, TREE, TWO_WAY, VESSELS, CoupledCase, at_once, changed
 
-SHORT = {"j.csv": JUNCTIONS, "v.csv": VESSELS.replace(",6,0.75", ",0.3,0.75")}
+SHORT = {"j.csv": JUNCTIONS.replace("brain,4,20,0", "brain,-2,10.3,0"), "v.csv": VESSELS.replace(",6,0.75", ",0.3,0.75")}
 PLACELESS = "id,pressure [mmHg]\nheart,200\nneck,\nbrain,\nvein,20\n"
 CUFF = '[body]\ncompression = "10 mmHg"\n'
 

@@ -296,6 +296,7 @@ class Screening(unittest.TestCase):
 
     def test_a_cascade_that_cannot_go_on_keeps_what_it_has(self):
         """The second vessel is too short to be simulated."""
+        (self.path / "j.csv").write_text(JUNCTIONS.replace("b,9,0,0", "b,0.3,0,0"))
         (self.path / "v.csv").write_text(VESSELS.replace("b,neck,b,1.5,6,0.46", "b,neck,b,1.5,0.3,0.42"))
         text = FILES.replace('"screening"', '"a"') + '[cascade]\nevents = 5\noutcome = "occlusion"\n'
         text = text.replace('spacing = "200 um"', "particles = 30000")

@@ -7,6 +7,7 @@ Arguments: SOURCE_DIRECTORY
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 SOURCE = Path(sys.argv.pop(1))
@@ -79,6 +80,12 @@ class Inspection(unittest.TestCase):
             with self.subTest(text):
                 [wishes] = inspection.inspect([self.script(text)], BOTH)
                 self.assertEqual([(name, fields) for name, fields in zip(BOTH, expected) if fields is not None], wishes)
+
+    def test_missing_modules(self):
+        with unittest.mock.patch("importlib.util.find_spec", lambda module: None if module == "paraview" else module):
+            self.assertEqual(inspection.missing_modules(), "Python finds no module paraview (Debian: python3-paraview)")
+        with unittest.mock.patch("importlib.util.find_spec", lambda module: module):
+            self.assertEqual(inspection.missing_modules(), "")
 
     def test_what_is_wrong_with_scripts(self):
         for text, message in BAD:

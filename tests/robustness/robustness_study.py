@@ -3,6 +3,7 @@
 """Tries to make Rhexis crash, hang, lose something, or be wrong without a word.
 
     tests/robustness/robustness_study.py inputs --count 10000      mutated TOML, CSV, JSON and VTP files, --set arguments
+    tests/robustness/robustness_study.py networks --count 10000    mutated files of a network, so many of each format
     tests/robustness/robustness_study.py checkpoints --count 1000  damaged checkpoints of a vessel, a two-way run and a cascade
     tests/robustness/robustness_study.py kills --count 50          kill -9 at random moments on 1 to 4 ranks, then a restart
 
@@ -22,11 +23,12 @@ from concurrent.futures import ThreadPoolExecutor
 import study.checkpoints
 import study.inputs
 import study.kills
+import study.networks
 from study.findings import Findings
 from study.program import Program
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-STUDIES = {"inputs": study.inputs.study, "checkpoints": study.checkpoints.study, "kills": study.kills.study}
+STUDIES = {"inputs": study.inputs.study, "checkpoints": study.checkpoints.study, "kills": study.kills.study, "networks": study.networks.study}
 MPIRUN = ("mpirun", "--oversubscribe", "--bind-to", "none", "--allow-run-as-root")
 
 

@@ -175,6 +175,7 @@ extern "C" [[gnu::visibility("default")]] rhexis::insitu::Pipeline* rhexis_creat
 }
 
 extern "C" [[gnu::visibility("default")]] void rhexis_inspect_scripts(
-    const rhexis::insitu::Settings& settings) {
-  rhexis::insitu::inspect(settings);
+    const rhexis::insitu::Settings& settings, std::string& obstacle) {
+  obstacle = rhexis::insitu::missing_modules();
+  if (obstacle.empty()) rhexis::insitu::inspect(settings);
 }

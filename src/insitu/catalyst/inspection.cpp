@@ -33,6 +33,12 @@ Wish wish_of(PyObject* tuple) {
 
 }  // namespace
 
+std::string missing_modules() {
+  PyObject* module = embedded_module("rhexis_inspection", inspection_source);
+  vtkPythonScopeGilEnsurer gil;
+  return utf8(checked(PyObject_CallMethod(module, "missing_modules", nullptr)));
+}
+
 std::vector<std::vector<Wish>> inspect(const Settings& settings) {
   PyObject* module = embedded_module("rhexis_inspection", inspection_source);
   vtkPythonScopeGilEnsurer gil;

@@ -7,6 +7,7 @@ so only literals are seen: what a script computes is checked when it has been im
 
 import ast
 import difflib
+import importlib.util
 import os
 import re
 
@@ -279,6 +280,14 @@ def settle_channel(script, channel, wish, present):
     if not wish.wanted:
         return None
     return known if wish.fields is None else [field for field, _ in wish.fields]
+
+
+def missing_modules():
+    """Why no script can run; empty where those can that need no modules but ParaView's and numpy."""
+    for module, package in (("paraview", "python3-paraview"), ("numpy", "python3-numpy")):
+        if importlib.util.find_spec(module) is None:
+            return f"Python finds no module {module} (Debian: {package})"
+    return ""
 
 
 def inspect(paths, present):

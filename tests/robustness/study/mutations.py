@@ -222,6 +222,13 @@ def xml_token(random, text):
     return one_match(random, re.compile(r"</?\w+|/>|>"), text, lambda match: random.choice(XML_TAGS))
 
 
+def word(random, text):
+    """Another word in a line of words: lost, doubled, an odd number, or one from elsewhere."""
+    words = re.findall(r"\S+", text)
+    replacement = random.choice(("", f"{random.choice(words)} {random.choice(words)}", random.choice(NUMBERS), random.choice(words)))
+    return one_match(random, re.compile(r"\S+"), text, lambda match: replacement)
+
+
 def bytes_anywhere(random, data):
     """Some bytes are lost, changed or added."""
     data = bytearray(data)
@@ -251,10 +258,11 @@ TEXT = (number, number, number, piece, lines)
 TOML = (*TEXT, unit, unit, quantity_without_quotes, value, value, array_for_scalar, swap_values, swap_words, header, key_name, all_numbers)
 CSV = (*TEXT, csv_cell, csv_cell, csv_cell, csv_separator, bracketed_unit, all_numbers)
 JSON = (*TEXT, json_token, json_token, json_token, swap_words, key_name)
+WORDS = (*TEXT, word, word, word, all_numbers)
 VTP = (number, lines, xml_token, xml_token, xml_token)
 BYTES = (bytes_anywhere, bytes_anywhere, truncated, other_encoding)
 MANIFEST = (lines, piece, manifest_line, manifest_line)
-BY_ENDING = {".txt": MANIFEST, ".toml": TOML, ".csv": CSV, ".json": JSON, ".vtp": VTP}
+BY_ENDING = {".txt": MANIFEST, ".toml": TOML, ".csv": CSV, ".json": JSON, ".vtp": VTP, ".graphml": (*VTP, piece), ".vtk": WORDS, ".swc": WORDS, ".dat": WORDS}
 
 
 def other_word(random, text, keys):
@@ -289,7 +297,7 @@ def add_key(random, text, keys):
     place = re.search(rf"^\[\[?{section}\]\]?$", text, re.MULTILINE)
     if place:
         return f"{text[: place.end()]}\n{name} = {new}{text[place.end():]}"
-    brackets = ("[[", "]]") if section == "spot" else ("[", "]")
+    brackets = ("[[", "]]") if section in ("spot", "condition") else ("[", "]")
     return f"{text}\n{brackets[0]}{section}{brackets[1]}\n{name} = {new}\n"
 
 
