@@ -198,8 +198,8 @@ class Coupled(CoupledCase):
     def test_the_load_falls_along_the_vessel(self):
         """A vessel with nearly the whole drop bulges most where blood enters; turned round, the picture is mirrored."""
         def bulge(name, ends):
-            self.write({f"{name}.csv": VESSELS.replace("neck,brain", ends).replace("1.2,300", "1.5,0.6").replace("0.3,50", "1.5,0.6")})
-            self.run_well(changed(ONE_WAY, "critical_stretch", ""), name, "time.end=1 ms", "output.every_steps=200", f"network.files=['j.csv', '{name}.csv']")
+            self.write({"p.csv": PLACELESS, f"{name}.csv": VESSELS.replace("neck,brain", ends).replace("1.2,300", "1.5,0.6").replace("0.3,50", "1.5,0.6")})
+            self.run_well(changed(ONE_WAY, "critical_stretch", ""), name, "time.end=1 ms", "output.every_steps=200", f"network.files=['p.csv', '{name}.csv']")
             with h5py.File(self.path / name / "particles.h5") as file:
                 x, u = file["reference_position"][:], file["displacement/000200"][:]
             radial = (x[:, :2] * u[:, :2]).sum(axis=1) / np.hypot(x[:, 0], x[:, 1])

@@ -37,7 +37,7 @@ class Afterwards(DriverTest):
         subprocess.run([scripts / "pvpython_headless", scripts / "render_particles.py", self.folder / "particles.xdmf"],
                        env=ENVIRONMENT, check=True, stdout=subprocess.DEVNULL, timeout=50)
         picture = read(self.folder / "images" / "vessel_000000.png")
-        ink = (picture[700:718, 826:882] < 100).all(axis=-1)  # below the right end of the lower bar
+        ink = (picture[704:720, 762:818] < 100).all(axis=-1)  # below the right end of the lower bar
         self.assertGreater(ink.sum(), 40)
         self.assertLess(ink.mean(), 0.5)
 

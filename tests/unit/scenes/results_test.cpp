@@ -36,7 +36,7 @@ TEST(Results, HaveAllNamesFromTheFirstMomentOn) {
       "cascade ensemble");
   expect_keys(results["network"],
               "vessels junctions inflow_m3_s max_imbalance volume_m3 surface_m2 highest_reynolds "
-              "highest_pressure_Pa lowest_pressure_Pa solver iterations queries screening");
+              "highest_pressure_Pa lowest_pressure_Pa solver iterations queries screening survey");
 }
 
 TEST(Performance, HasAllNamesFromTheFirstMomentOn) {
