@@ -53,7 +53,8 @@ void write(const network::BoundedGraph& network, const std::filesystem::path& pa
 
 /// Bars, one for each of at most ten ranges of equal ratio.
 void print_radii(runtime::Console& console, const std::vector<double>& radius) {
-  const auto [least, largest] = std::ranges::minmax(radius);
+  const auto range = std::ranges::minmax(radius);
+  const double least = range.min, largest = range.max;  // names that lambdas may hold
   if (!(largest > least)) return;
   constexpr std::size_t bins = 10;
   constexpr double longest_bar = 40;
