@@ -7,8 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -21,6 +19,7 @@
 #include "core/error.hpp"
 #include "core/faults.hpp"
 #include "core/heading.hpp"
+#include "core/scanning.hpp"
 #include "core/text_encoding.hpp"
 
 namespace rhexis {
@@ -91,7 +90,7 @@ class CsvTable {
     const auto column = find(name);
     if (column == headings_.size() || fields_[column].empty()) return std::nullopt;
     const std::optional<double> value = parsed(name, fields_[column]);
-    if (!value || !std::isfinite(*value)) {
+    if (!value) {
       const bool decimal_comma = separator_ == ',' && fields_[column].find(',') != std::string_view::npos;
       throw InputError(where() + ": " + std::string(name) + " = " + shown(fields_[column]) +
                        ": not a finite number" + (decimal_comma ? "; decimal numbers have a point" : ""));
@@ -164,7 +163,7 @@ class CsvTable {
                      std::to_string(headings_.size()) + ": " + hint);
   }
 
-  /// The number of a field; none where it is not one.
+  /// The number of a field, in the unit of its heading; none where it is not a finite one.
   std::optional<double> parsed(std::string_view name, std::string_view field) {
     std::string with_point;
     if (separator_ != ',') {
@@ -183,11 +182,7 @@ class CsvTable {
         field = with_point;
       }
     }
-    double value = 0;
-    const char *first = field.data() + (field.front() == '+' ? 1 : 0), *last = field.data() + field.size();
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc() || end != last) return std::nullopt;
-    return value;
+    return finite_number(field);
   }
 
   /// Cuts the line into fields without blanks around them.

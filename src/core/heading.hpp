@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/scanning.hpp"
+
 namespace rhexis {
 
 /// What a column holds: its name here, the SI unit of its numbers ("": text, "1": no unit), and the names
@@ -22,12 +24,6 @@ using Columns = std::vector<Column>;
 struct Heading {
   std::string name, unit;
 };
-
-inline std::string_view without_blanks(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
 
 /// "radius [um]" or "radius (um)". A bracket without its end is part of the name.
 inline Heading parsed_heading(std::string_view text) {

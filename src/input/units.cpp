@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "core/error.hpp"
+#include "core/scanning.hpp"
 
 namespace rhexis::input {
 namespace {
@@ -115,13 +116,6 @@ std::string example_with(std::string_view number, std::string_view unit) {
   return text;
 }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 /// UDUNITS multiplies every number it meets, so that "1 000 mm" would be 0 and "5 mm 3", "5 mm*3" be 15 mm.
 /// Apart from exponents, which follow their unit, ^ or **, only the 1 of "1/s" is let through.
 bool has_second_number(std::string_view unit) {
@@ -149,7 +143,7 @@ struct Written {
 Written split(std::string_view text, std::string_view expected) {
   // UDUNITS would stop reading there and miss the rest.
   if (text.find('\0') != std::string_view::npos) throw InputError("holds a NUL character");
-  text = trimmed(text);
+  text = without_blanks(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -159,7 +153,7 @@ Written split(std::string_view text, std::string_view expected) {
   const auto digits = text.substr(0, static_cast<std::size_t>(end - text.data()));
   if (error == std::errc::result_out_of_range || !std::isfinite(number))
     throw InputError(fmt::format("'{}' is not a finite number", digits));
-  const auto unit = trimmed(text.substr(digits.size()));
+  const auto unit = without_blanks(text.substr(digits.size()));
   if (unit.starts_with(',')) throw InputError("a decimal comma; write the number with a point");
   if (has_second_number(unit)) throw InputError("has more than one number; write one number and its unit");
   return {number, digits, unit};

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "network/graph.hpp"
 
+#include <algorithm>
+
 namespace rhexis::network {
+
+std::size_t Graph::known_walls() const {
+  return static_cast<std::size_t>(std::ranges::count_if(wall_thickness, [](double h) { return h > 0; }));
+}
 
 std::string Graph::name_of_junction(std::size_t j) const {
   return junction_name.empty() ? std::to_string(j) : junction_name[j];

@@ -14,7 +14,7 @@ namespace rhexis::network {
 /// m; a radius, length or wall beyond these is in the wrong unit. The smallest is less than an atom.
 constexpr double smallest_measure = 1e-12, largest_measure = 100;
 
-/// Of the blood that enters at an end, as a fraction.
+/// The highest discharge haematocrit, as a fraction, that blood may enter with.
 constexpr double highest_haematocrit = 0.95;
 
 enum class VesselKind : std::uint8_t { artery = 0, vein = 1, unknown = 2 };
@@ -42,6 +42,8 @@ struct Graph {
   std::size_t vessels() const { return from.size(); }
   /// Whether the thickness of a vessel's wall is given; else the wall rule assumes it.
   bool knows_wall(std::size_t v) const { return !wall_thickness.empty() && wall_thickness[v] > 0; }
+  /// The number of vessels of which it is.
+  std::size_t known_walls() const;
   std::string name_of_junction(std::size_t j) const;
   std::string name_of_vessel(std::size_t v) const;
 };
@@ -54,8 +56,7 @@ struct BoundaryCondition {
   Kind kind = Kind::pressure;
   double value = 0;       ///< pressure relative to atmosphere, Pa; or flow into the network, m3/s
   double resistance = 0;  ///< Pa s/m3, of a pressure condition; 0: the pressure is the junction's own
-  std::optional<double> haematocrit =
-      {};  ///< of the blood that enters here, as a fraction; none: the input's
+  std::optional<double> haematocrit = {};  ///< of blood that enters here, a fraction; none: the input's
 };
 
 /// A network and what its file says of its boundary.

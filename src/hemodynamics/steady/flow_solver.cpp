@@ -10,6 +10,7 @@
 #include "core/format.hpp"
 #include "core/memory.hpp"
 #include "hemodynamics/poiseuille.hpp"
+#include "network/survey/plausibility.hpp"
 #include "network/tree/tree_pair.hpp"
 #include "parallel/node.hpp"
 #include "parallel/together.hpp"
@@ -89,8 +90,8 @@ void check_flow(NetworkSolution& solution, const std::array<double, 2>& driving)
         "the pressure falls to {}, below that around the vessels: real ones would collapse, these are rigid",
         mmhg(s.lowest_pressure)));
   }
-  constexpr double highest_reynolds_of_blood = 2e4, largest_flow = 1000 / litres_per_minute;
-  if (s.highest_reynolds > highest_reynolds_of_blood || std::abs(s.inflow) > largest_flow) {
+  constexpr double highest_reynolds_of_blood = 2e4;
+  if (s.highest_reynolds > highest_reynolds_of_blood || std::abs(s.inflow) > network::largest_flow) {
     solution.warnings.push_back(fmt::format(
         "an inflow of {} L/min and Reynolds numbers up to {} are those of no circulation: are the units of "
         "lengths, pressures and flows right?",

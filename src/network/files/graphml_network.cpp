@@ -3,12 +3,11 @@
 // columns of CSV tables, with units in brackets ("radius [um]"), or lengths in network.file_length_unit.
 #include <fmt/format.h>
 
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <unordered_map>
 
 #include "core/error.hpp"
+#include "core/scanning.hpp"
 #include "network/files/network_file.hpp"
 #include "network/files/xml_reader.hpp"
 
@@ -45,12 +44,10 @@ class Record {
     const auto found = values_.find(name);
     if (found == values_.end()) return std::nullopt;
     const auto& [text, factor] = found->second;
-    double value = 0;
-    const char *first = text.data() + (text.starts_with('+') ? 1 : 0), *last = text.data() + text.size();
-    const auto [end, error] = std::from_chars(first, last, value);
-    if (error != std::errc() || end != last || !std::isfinite(value))
+    const std::optional<double> value = finite_number(text);
+    if (!value)
       throw InputError(fmt::format("{}: {} = {}: not a finite number", where_, name, text.substr(0, 60)));
-    return value * factor;
+    return *value * factor;
   }
 
  private:

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "network/connectivity.hpp"
 #include "network/names.hpp"
 
 namespace rhexis::network {
@@ -226,12 +227,9 @@ BoundedGraph NetworkBuilder::finish(const std::string& file) {
   if (!has_coordinates_.value_or(false)) g.x = g.y = g.z = {};
   if (!g.junction_label.empty()) g.junction_label.resize(g.junctions);
   if (!g.vessel_label.empty()) g.vessel_label.resize(g.vessels());
-  std::vector<bool> has_vessel(g.junctions);
-  for (const auto& ends : {g.from, g.to}) {
-    for (const std::uint32_t j : ends) has_vessel[j] = true;
-  }
+  const std::vector<std::uint32_t> degree = degrees(g);
   for (const BoundaryCondition& c : network_.conditions) {
-    if (has_vessel[c.junction]) continue;
+    if (degree[c.junction] > 0) continue;
     faults_.add(file + ": junction " + g.name_of_junction(c.junction) +
                 ", where a pressure or a flow is given, is no vessel's end");
   }

@@ -3,16 +3,16 @@
 ///
 /// CSV: two files, each with a header row that names columns (in any order; network_builder.hpp has the
 /// names) and, in brackets, their units; see core/csv_table.hpp.
-///   junctions:  id; optional: name, x [mm], y [mm], z [mm]; pressure [mmHg] or flow [mL/min] (into the
-///   network);
-///               resistance [Pa s/m3] (of a peripheral bed behind which the pressure lies); haematocrit
-///   vessels:    id, from, to, radius [um] or diameter [um]; optional: name, length [mm] (else the distance
-///   of the
-///               ends), wall_thickness [um], kind (artery, vein, unknown), generation
-/// JSON: the same names in {"units": {"length": "mm", "pressure": "mmHg", "flow": "mL/min", "resistance": "Pa
-/// s/m3"},
-///   "junctions": [{"id": "a", "x": 0, ...}, ...], "vessels": [{"id": 1, "from": "a", "to": "b", "radius":
-///   0.1}, ...]}; the unit of a kind that no member uses may be left out.
+/// - junctions: id; optional: name, x [mm], y [mm], z [mm]; pressure [mmHg] or flow [mL/min] (into the
+///   network); resistance [Pa s/m3] (of a peripheral bed behind which the pressure lies); haematocrit
+/// - vessels: id, from, to, radius [um] or diameter [um]; optional: name, length [mm] (else the distance of
+///   the ends), wall_thickness [um], kind (artery, vein, unknown), generation
+///
+/// JSON: lists "junctions" and "vessels" of objects with the same names, and the units of all in "units":
+///   {"units": {"length": "mm", "pressure": "mmHg", "flow": "mL/min", "resistance": "Pa s/m3"},
+///    "junctions": [{"id": "a", "x": 0}], "vessels": [{"id": 1, "from": "a", "to": "b", "radius": 0.1}]}
+/// The unit of a kind that no member uses may be left out.
+///
 /// GraphML: see graphml_network.cpp. Secomb's .dat: see secomb_network.cpp. VTP: see vtp_network.hpp.
 #pragma once
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "network/files/network_writer.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -65,8 +64,7 @@ void check_fits_vtp(const BoundedGraph& network, const std::filesystem::path& pa
   };
   const Graph& g = network.graph;
   if (g.x.empty()) refuse("network without coordinates");
-  const auto is_known = [](double thickness) { return thickness > 0; };
-  if (std::ranges::any_of(g.wall_thickness, is_known) && !std::ranges::all_of(g.wall_thickness, is_known))
+  if (const std::size_t known = g.known_walls(); known > 0 && known < g.vessels())
     refuse("wall thicknesses of some vessels alone");
   for (const BoundaryCondition& condition : network.conditions) {
     if (condition.resistance != 0) refuse("resistances at ends");

@@ -3,15 +3,14 @@
 //
 // Lines of words divided by blanks or tabs; words beyond those named here, and asterisks after them, are not
 // read:
-//   six lines of head (title, box, points, distances, ...)
-//   N total number of segments
-//   a heading, then N rows: name type from to diameter(um) flow(nl/min) haematocrit; types 4 and 5 carry
-//   blood N total number of nodes a heading, then N rows: name x y z (um) N total number of boundary nodes a
-//   heading, then N rows: node type value haematocrit; type 0: pressure (mmHg), 2 and 4 to 9: flow into the
-//   network (nl/min)
+//   - six lines of head (title, box, points, distances, ...);
+//   - N total number of segments, a heading, then N rows: name type from to diameter (um) flow (nl/min)
+//     haematocrit; types 4 and 5 carry blood;
+//   - N total number of nodes, a heading, then N rows: name x y z (um);
+//   - N total number of boundary nodes, a heading, then N rows: node type value haematocrit; the value of
+//     type 0 is a pressure (mmHg), that of types 2 and 4 to 9 a flow into the network (nl/min).
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <string_view>
 #include <unordered_map>
@@ -19,6 +18,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "core/scanning.hpp"
 #include "network/files/network_file.hpp"
 #include "network/names.hpp"
 
@@ -86,15 +86,8 @@ class Reader {
     }
   }
 
-  static std::optional<double> number_in(std::string_view word) {
-    double value = 0;
-    const char *first = word.data() + (word.starts_with('+') ? 1 : 0), *last = word.data() + word.size();
-    const auto [end, error] = std::from_chars(first, last, value);
-    return error == std::errc() && end == last && std::isfinite(value) ? std::optional(value) : std::nullopt;
-  }
-
   double number(const Line& line, std::size_t word, const char* name) const {
-    const std::optional<double> value = number_in(line.words[word]);
+    const std::optional<double> value = finite_number(line.words[word]);
     if (!value)
       throw InputError(fmt::format("{}: {} = {}: not a finite number", where(line.number), name,
                                    line.words[word].substr(0, 60)));
@@ -105,7 +98,7 @@ class Reader {
   template <class Read>
   void read_list(const std::string& name, std::size_t words, const Read& read) {
     const Line head = next("the number of " + name);
-    const std::optional<double> count = number_in(head.words[0]);
+    const std::optional<double> count = finite_number(head.words[0]);
     if (!count || *count < 0 || *count != std::floor(*count))
       throw InputError(fmt::format("{}: the number of {} is expected, as in '546 total number of {}'",
                                    where(head.number), name, name));

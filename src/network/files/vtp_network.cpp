@@ -54,9 +54,7 @@ vtp::Lines lines_of(const Graph& graph, const std::filesystem::path& path) {
   auto& arrays = lines.cell_arrays;
   add(arrays, "radius", graph.radius, graph.vessels(), path);
   add(arrays, "length", graph.length, graph.vessels(), path);
-  const auto is_known = [](double thickness) { return thickness > 0; };
-  if (std::ranges::any_of(graph.wall_thickness, is_known))
-    add(arrays, "wall_thickness", graph.wall_thickness, graph.vessels(), path);
+  if (graph.known_walls() > 0) add(arrays, "wall_thickness", graph.wall_thickness, graph.vessels(), path);
   if (!graph.kind.empty()) {
     arrays.push_back({"kind", 1, true, {}});
     for (const VesselKind kind : graph.kind) arrays.back().values.push_back(static_cast<double>(kind));

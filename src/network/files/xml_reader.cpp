@@ -6,21 +6,14 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "core/scanning.hpp"
 #include "core/text_encoding.hpp"
 
 namespace rhexis::network {
 namespace {
 
-constexpr std::string_view blanks = " \t\r\n";
-
 bool is_blank(char c) {
   return blanks.find(c) != std::string_view::npos;
-}
-
-std::string_view without_blanks_around(std::string_view text) {
-  const auto begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
 }  // namespace
@@ -74,7 +67,7 @@ XmlReader::Event XmlReader::next() {
   }
   while (!text_.empty()) {
     if (skip_what_is_no_element()) continue;
-    if (take("</")) return end_element(std::string(without_blanks_around(upto(">", "a tag"))));
+    if (take("</")) return end_element(std::string(without_blanks(upto(">", "a tag"))));
     if (take("<![CDATA[")) {
       content_ = upto("]]>", "a CDATA section");
       if (!content_.empty()) return Event::text;
@@ -82,7 +75,7 @@ XmlReader::Event XmlReader::next() {
       return begin_element();
     } else {
       const std::string_view raw = text_.substr(0, text_.find('<'));
-      const std::string_view content = without_blanks_around(raw);
+      const std::string_view content = without_blanks(raw);
       if (!content.empty() && open_.empty()) refuse("text outside of all elements");
       content_ = decoded(content);
       line_ += static_cast<std::size_t>(std::ranges::count(raw, '\n'));

@@ -25,7 +25,7 @@ class XmlReader {
   const std::string& name() const { return name_; }
   /// A text without blanks around it; never empty.
   const std::string& text() const { return content_; }
-  /// Of the element that began; empty where there is none.
+  /// An attribute of the element that began; empty where it has none of that name.
   std::string attribute(std::string_view name) const;
   /// "n.graphml:12", of what comes next.
   std::string where() const { return file_ + ":" + std::to_string(line_); }

@@ -74,8 +74,7 @@ ParameterList declare(std::vector<EndCondition>& conditions) {
       {.key = "condition.junction",
        .target = ListTarget(&conditions, &EndCondition::junction),
        .meaning = "Id or name of a junction at which something is known, in the place of what the network's "
-                  "files say "
-                  "there; or give condition.nearest."},
+                  "files say there; or give condition.nearest."},
       {.key = "condition.nearest",
        .target = ListTarget(&conditions, &EndCondition::nearest),
        .unit = "m",
@@ -88,7 +87,7 @@ ParameterList declare(std::vector<EndCondition>& conditions) {
       {.key = "condition.resistance",
        .target = ListTarget(&conditions, &EndCondition::resistance),
        .unit = "Pa s/m3",
-       .meaning = "Of a peripheral bed behind which the pressure lies.",
+       .meaning = "Resistance of a peripheral bed behind which the pressure lies.",
        .range = Range::not_negative()},
       {.key = "condition.flow",
        .target = ListTarget(&conditions, &EndCondition::flow),

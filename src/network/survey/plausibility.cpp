@@ -16,7 +16,6 @@ namespace {
 
 constexpr double widest = 0.03, narrowest = 1e-6;             ///< m, radii
 constexpr double highest_pressure = 1e6;                      ///< Pa
-constexpr double largest_flow = 1000 / litres_per_minute;     ///< m3/s
 constexpr double least_share_of_distance = 0.05;              ///< of a length
 constexpr double rounding_of_lengths = 0.01;                  ///< relative
 constexpr double many_short_branches = 0.1;                   ///< share of all branches

@@ -5,9 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "core/format.hpp"
 #include "network/graph.hpp"
 
 namespace rhexis::network {
+
+/// The largest flow, m3/s, that is taken for one of blood: the heart of a blue whale pumps less.
+inline constexpr double largest_flow = 1000 / litres_per_minute;
 
 /// What is improbable, in sentences with how many vessels or ends are so and the first of them.
 struct Improbable {
@@ -18,7 +22,7 @@ struct Improbable {
 /// tenth, and of pressures of arteries at ends of capillaries; notes lengths below the distance of the ends,
 /// as sketches have that are not drawn to scale. Throws InputError with every vessel that is shorter than a
 /// twentieth of that distance, and every pressure and flow at an end that no circulation has: vessels burst
-/// below 1 MPa; the heart of a blue whale pumps less than 1000 L/min.
+/// below 1 MPa, and flows are below `largest_flow`.
 Improbable improbable(const BoundedGraph& network);
 
 }  // namespace rhexis::network

@@ -244,8 +244,7 @@ class CascadeRun {
   parallel::Communicator comm_;
   Results results_;
   runtime::RunSession session_;
-  studies::CascadeState
-      state_;  ///< complete on the first rank; elsewhere without what only that rank knows of vessels
+  studies::CascadeState state_;  ///< without what the first rank alone knows of vessels on the others
   std::optional<NetworkCoupling> network_;
   VesselScene next_;  ///< the event after those so far
   bool restarts_within_event_ = false;

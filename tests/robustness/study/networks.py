@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mutated files of networks in every format: whatever is in them, they are read and solved, or refused with one message."""
 
+import dataclasses
 import os
 import pathlib
 import random
@@ -10,11 +11,11 @@ import subprocess
 import tempfile
 
 from study import mutations, scenes
+from study.inputs import LONGEST_MESSAGE
 from study.program import ALONE, is_text
 
 BATCH = 200  # files for each start of the driver
 SECONDS_OF_BATCH = 120  # of a processor
-LONGEST_MESSAGE = 6000
 
 SECOMB = """\
 a fork
@@ -83,12 +84,11 @@ def make_case(seed, number, format_name, files, folder):
     return "\t".join(map(str, paths)), told
 
 
-def run_driver(driver, memory_kib, lines):
+def run_driver(driver, lines):
     """What the driver tells of each line, up to that which ended it, and how it ended."""
-    limits = f'ulimit -v {memory_kib}; ulimit -c 0; ulimit -t {SECONDS_OF_BATCH}; exec "$1"'
     with tempfile.TemporaryDirectory(prefix="rhexis_study_") as sessions:
         environment = {**os.environ, **ALONE, "OMP_NUM_THREADS": "1", "OMPI_MCA_orte_tmpdir_base": sessions}
-        done = subprocess.run(["sh", "-c", limits, "limits", str(driver)], input="".join(f"{line}\n" for line in lines).encode(),
+        done = subprocess.run([*driver.limits(), driver.path], input="".join(f"{line}\n" for line in lines).encode(),
                               capture_output=True, check=False, env=environment)
     return done.stdout.split(b"\n")[:-1], done
 
@@ -109,7 +109,7 @@ def judge(line, number):
 
 
 def study(program, findings, seed, first, count, pool):
-    driver = program.path.parent / "read_networks"
+    driver = dataclasses.replace(program, path=program.path.parent / "read_networks", processor_s=SECONDS_OF_BATCH)
 
     def batch(task):
         format_name, files, begin, end = task
@@ -117,7 +117,7 @@ def study(program, findings, seed, first, count, pool):
         try:
             cases = [(number, *make_case(seed, number, format_name, files, folder)) for number in range(begin, end)]
             while cases:
-                told, done = run_driver(driver, program.memory_kib, [line for _, line, _ in cases])
+                told, done = run_driver(driver, [line for _, line, _ in cases])
                 for (number, line, mutated), answer in zip(cases, told):
                     report(format_name, number, line, mutated, *judge(answer, number))
                 if len(told) < len(cases):
