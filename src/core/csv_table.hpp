@@ -116,7 +116,9 @@ class CsvTable {
   /// A field, shortened to what a message can hold.
   static std::string shown(std::string_view field) {
     constexpr std::size_t most = 60;
-    return field.size() <= most ? std::string(field) : std::string(field.substr(0, most)) + "...";
+    std::string text(field.substr(0, most));
+    if (field.size() > most) text += "...";
+    return text;
   }
 
   /// What divides the fields of a header: the one of comma, semicolon and tab that is found most often.

@@ -57,7 +57,9 @@ std::string shortened(std::string text) {
   std::size_t cut = longest - 3;
   // Not inside a UTF-8 character: its following bytes are 10xxxxxx.
   while ((static_cast<unsigned char>(text[cut]) & 0xC0U) == 0x80U) --cut;
-  return text.substr(0, cut) + "...";
+  text.resize(cut);
+  text += "...";
+  return text;
 }
 
 std::optional<std::string> closest(std::string_view word, std::span<const std::string> candidates) {
