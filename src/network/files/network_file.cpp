@@ -11,6 +11,7 @@
 #include "network/repair/drop.hpp"
 #include "network/repair/end_conditions.hpp"
 #include "network/repair/reference_pressure.hpp"
+#include "network/repair/wall_ranges.hpp"
 #include "network/survey/plausibility.hpp"
 
 namespace rhexis::network {
@@ -72,8 +73,10 @@ NetworkFormat format_of(const std::vector<std::string>& files) {
       "vessels");
 }
 
-bool lacks_length_unit(NetworkFormat format) {
-  return format == NetworkFormat::vtp;
+void check_length_unit(const Parameters& parameters, const std::string& remedy) {
+  if (!parameters.file_length_unit.empty() || format_of(parameters.files) != NetworkFormat::vtp) return;
+  throw InputError("the unit of lengths is needed, which " + parameters.files.front() +
+                   " cannot tell: " + remedy);
 }
 
 BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
@@ -85,9 +88,11 @@ BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
       {.to_si = to_si, .length_unit = parameters.file_length_unit, .drops_self_loops = drops("self_loops")});
   if (network.file.empty()) network.file = parameters.files.back();
   set_end_conditions(parameters.conditions, network);
+  refuse_directed_ends(network);
   if (drops("islands")) drop_islands(network);
   if (drops("dead_ends")) drop_dead_ends(network);
   set_reference_pressure(parameters.reference_pressure, network);
+  set_wall_ranges(parameters.wall_ranges, network);
   Improbable found = improbable(network);
   network.warnings = std::move(found.warnings);
   network.notes.insert(network.notes.end(), found.notes.begin(), found.notes.end());
