@@ -3,6 +3,7 @@
 /// several components, dead ends and isolated junctions are allowed.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,6 +11,8 @@
 #include <vector>
 
 namespace rhexis::network {
+
+using Point = std::array<double, 3>;
 
 /// m; a radius, length or wall beyond these is in the wrong unit. The smallest is less than an atom.
 constexpr double smallest_measure = 1e-12, largest_measure = 100;
@@ -63,8 +66,6 @@ struct BoundaryCondition {
 struct BoundedGraph {
   Graph graph;
   std::vector<BoundaryCondition> conditions;
-  /// Junctions of which the file tells only whether blood flows in or out there, which settles no flow.
-  std::vector<std::uint32_t> directed_ends = {};
   std::vector<std::string> notes = {};     ///< sentences for the user: what was ignored, merged or assumed
   std::vector<std::string> warnings = {};  ///< sentences for the user: what is probably not meant
   std::string file = {};                   ///< that the vessels are from

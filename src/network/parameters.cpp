@@ -59,14 +59,23 @@ ParameterList declare(Parameters& p) {
       {.key = "network.files",
        .target = &p.files,
        .meaning =
-           "The user's own network: one VTP, JSON or GraphML file, one .dat file of Secomb's programs, or "
-           "two CSV files, junctions and vessels. Looked for from the working folder, then from the input "
-           "file's folder."},
+           "The user's own network: one VTP, .vtk, SWC, JSON or GraphML file, one .dat file of Secomb's "
+           "programs, or two CSV files, junctions and vessels. Looked for from the working folder, then "
+           "from the input file's folder."},
       {.key = "network.file_length_unit",
        .target = &p.file_length_unit,
        .meaning =
-           "Unit of coordinates, radii and lengths in a file that does not tell it, e.g. \"mm\"; a VTP "
-           "file never does. What has a unit in the file keeps that.",
+           "Unit of coordinates, radii and lengths in a file that does not tell it, e.g. \"mm\"; VTP, .vtk "
+           "and SWC files never do. What has a unit in the file keeps that.",
+       .only_with = {when("network.source", Source::file)}},
+      {.key = "network.merge_tolerance",
+       .target = &p.merge_tolerance,
+       .unit = "1",
+       .meaning =
+           "How near two places on centre lines must be, as a fraction of the smaller radius there, to "
+           "be one: stretches that repeat other lines are left out, and ends of lines are joined across "
+           "gaps.",
+       .range = Range::between(0, 1),
        .only_with = {when("network.source", Source::file)}},
       {.key = "network.drop",
        .target = &p.drop,
@@ -113,7 +122,7 @@ ParameterList declare(Parameters& p) {
        .only_with = {when("network.source", Source::tree)}},
   };
   for (const ParameterList& part :
-       {declare(p.conditions), declare(p.tree), declare(p.wall), declare(p.wall_ranges), declare(p.weakness)})
+       {declare(p.conditions), declare(p.tree), declare(p.wall), declare(p.weakness)})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

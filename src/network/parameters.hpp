@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Input keys of the sections network, condition, tree, wall, wall_range and weakness.
+/// Input keys of the sections network, condition, tree, wall and weakness.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/parameter.hpp"
+#include "network/lines/line_network.hpp"
 #include "network/repair/end_conditions.hpp"
-#include "network/repair/wall_ranges.hpp"
 #include "network/tree/tree_rules.hpp"
 #include "network/wall.hpp"
 #include "network/wall_variation.hpp"
@@ -44,8 +44,9 @@ constexpr auto name_table(Tier) {
 struct Parameters {
   Source source = Source::tree;
   std::vector<std::string> files;
-  std::string file_length_unit;   ///< of files that do not tell theirs; empty: not given
-  std::vector<std::string> drop;  ///< "self_loops", "islands", "dead_ends"
+  std::string file_length_unit;                      ///< of files that do not tell theirs; empty: not given
+  double merge_tolerance = default_merge_tolerance;  ///< fraction of the radius
+  std::vector<std::string> drop;                     ///< "self_loops", "islands", "dead_ends"
   std::vector<EndCondition> conditions;
   std::optional<double> reference_pressure;  ///< Pa, of parts where only flows are known
   Tier tier = Tier::automatic;
@@ -56,7 +57,6 @@ struct Parameters {
   bool vtp = false;
   TreeParameters tree;
   WallParameters wall;
-  std::vector<WallRange> wall_ranges;
   WeaknessParameters weakness;
 
   bool is_tree() const { return source == Source::tree; }

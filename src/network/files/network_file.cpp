@@ -7,11 +7,11 @@
 #include "core/error.hpp"
 #include "core/text_encoding.hpp"
 #include "core/text_file.hpp"
+#include "network/files/swc_network.hpp"
 #include "network/files/vtp_network.hpp"
 #include "network/repair/drop.hpp"
 #include "network/repair/end_conditions.hpp"
 #include "network/repair/reference_pressure.hpp"
-#include "network/repair/wall_ranges.hpp"
 #include "network/survey/plausibility.hpp"
 
 namespace rhexis::network {
@@ -23,11 +23,11 @@ struct FormatOfFiles {
   NetworkFormat format;
 };
 
-constexpr FormatOfFiles formats[] = {{".csv", 2, NetworkFormat::csv},
-                                     {".json", 1, NetworkFormat::json},
-                                     {".graphml", 1, NetworkFormat::graphml},
-                                     {".dat", 1, NetworkFormat::secomb},
-                                     {".vtp", 1, NetworkFormat::vtp}};
+constexpr FormatOfFiles formats[] = {
+    {".csv", 2, NetworkFormat::csv},         {".json", 1, NetworkFormat::json},
+    {".graphml", 1, NetworkFormat::graphml}, {".dat", 1, NetworkFormat::secomb},
+    {".swc", 1, NetworkFormat::swc},         {".vtp", 1, NetworkFormat::vtp},
+    {".vtk", 1, NetworkFormat::vtp}};
 
 /// ".csv" of "J.CSV".
 std::string extension_of(const std::string& file) {
@@ -38,6 +38,7 @@ std::string extension_of(const std::string& file) {
 }
 
 BoundedGraph read_files(const std::vector<std::string>& files, const FileOptions& options) {
+  const auto metres_per_unit = [&] { return options.to_si("1 " + options.length_unit, "m"); };
   switch (format_of(files)) {
     case NetworkFormat::csv:
       return read_csv_network(files[0], files[1], options);
@@ -47,10 +48,12 @@ BoundedGraph read_files(const std::vector<std::string>& files, const FileOptions
       return read_graphml_network(files[0], options);
     case NetworkFormat::secomb:
       return read_secomb_network(files[0], options);
+    case NetworkFormat::swc:
+      return read_swc_network(files[0], metres_per_unit(), options.merge_tolerance);
     case NetworkFormat::vtp:
       break;
   }
-  return read_vtp_network(files[0], options.to_si("1 " + options.length_unit, "m"));
+  return read_vtp_network(files[0], metres_per_unit(), options.merge_tolerance);
 }
 
 }  // namespace
@@ -69,30 +72,27 @@ NetworkFormat format_of(const std::vector<std::string>& files) {
     if (files.size() == known.files && std::ranges::all_of(files, is_of_format)) return known.format;
   }
   throw InputError(
-      "name one .json, .graphml, .dat (Secomb's) or .vtp file, or two .csv files: first junctions, then "
-      "vessels");
+      "name one .json, .graphml, .dat (Secomb's), .swc, .vtp or .vtk file, or two .csv files: first "
+      "junctions, then vessels");
 }
 
-void check_length_unit(const Parameters& parameters, const std::string& remedy) {
-  if (!parameters.file_length_unit.empty() || format_of(parameters.files) != NetworkFormat::vtp) return;
-  throw InputError("the unit of lengths is needed, which " + parameters.files.front() +
-                   " cannot tell: " + remedy);
+bool lacks_length_unit(NetworkFormat format) {
+  return format == NetworkFormat::vtp || format == NetworkFormat::swc;
 }
 
 BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
   const auto drops = [&](const char* what) {
     return std::ranges::find(parameters.drop, what) != parameters.drop.end();
   };
-  BoundedGraph network = read_files(
-      parameters.files,
-      {.to_si = to_si, .length_unit = parameters.file_length_unit, .drops_self_loops = drops("self_loops")});
+  BoundedGraph network = read_files(parameters.files, {.to_si = to_si,
+                                                       .length_unit = parameters.file_length_unit,
+                                                       .merge_tolerance = parameters.merge_tolerance,
+                                                       .drops_self_loops = drops("self_loops")});
   if (network.file.empty()) network.file = parameters.files.back();
   set_end_conditions(parameters.conditions, network);
-  refuse_directed_ends(network);
   if (drops("islands")) drop_islands(network);
   if (drops("dead_ends")) drop_dead_ends(network);
   set_reference_pressure(parameters.reference_pressure, network);
-  set_wall_ranges(parameters.wall_ranges, network);
   Improbable found = improbable(network);
   network.warnings = std::move(found.warnings);
   network.notes.insert(network.notes.end(), found.notes.begin(), found.notes.end());

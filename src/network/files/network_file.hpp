@@ -13,7 +13,8 @@
 ///    "junctions": [{"id": "a", "x": 0}], "vessels": [{"id": 1, "from": "a", "to": "b", "radius": 0.1}]}
 /// The unit of a kind that no member uses may be left out.
 ///
-/// GraphML: see graphml_network.cpp. Secomb's .dat: see secomb_network.cpp. VTP: see vtp_network.hpp.
+/// GraphML: see graphml_network.cpp. Secomb's .dat: see secomb_network.cpp. SWC: see
+/// swc_network.hpp. VTP and legacy VTK: see vtp_network.hpp.
 #pragma once
 
 #include <filesystem>
@@ -34,14 +35,15 @@ BoundedGraph read_json_network(const std::filesystem::path& file, const FileOpti
 BoundedGraph read_graphml_network(const std::filesystem::path& file, const FileOptions& options);
 BoundedGraph read_secomb_network(const std::filesystem::path& file, const FileOptions& options);
 
-enum class NetworkFormat { csv, json, graphml, secomb, vtp };
+/// `vtp`: VTK's PolyData, as XML (.vtp) or in the legacy format (.vtk).
+enum class NetworkFormat { csv, json, graphml, secomb, swc, vtp };
 
 /// By number and extensions (in any case) of the files. Throws InputError where they are no network's.
 NetworkFormat format_of(const std::vector<std::string>& files);
 
-/// Throws InputError, which ends in `remedy`, where files of that format never tell the unit of their lengths
-/// and `parameters` do not either.
-void check_length_unit(const Parameters& parameters, const std::string& remedy);
+/// Whether files of that format never tell the unit of their lengths, so that network.file_length_unit is
+/// needed.
+bool lacks_length_unit(NetworkFormat format);
 
 /// The network of `parameters.files`, as the solvers take it: read, then repaired as the keys of [network]
 /// ask for. The one way in from a user's files. Throws InputError.

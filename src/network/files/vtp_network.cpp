@@ -64,13 +64,13 @@ vtp::Lines lines_of(const Graph& graph, const std::filesystem::path& path) {
   return lines;
 }
 
-/// VTK itself does not see that the last block of a file was cut short.
-bool is_complete(const std::filesystem::path& path) {
+/// What a file begins or ends with, at most 256 bytes.
+std::string edge_of(const std::filesystem::path& path, bool of_end) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file.tellg(), tail = std::min<std::streamoff>(size, 256);
-  std::string text(static_cast<std::size_t>(tail), ' ');
-  file.seekg(size - tail).read(text.data(), tail);
-  return file && text.find("</VTKFile>") != std::string::npos;
+  const std::streamoff size = file.tellg(), length = std::min<std::streamoff>(size, 256);
+  std::string text(static_cast<std::size_t>(std::max<std::streamoff>(length, 0)), ' ');
+  file.seekg(of_end ? size - length : 0).read(text.data(), length);
+  return text;
 }
 
 }  // namespace
@@ -79,17 +79,25 @@ bool knows_vtp() {
   return has_plugin(vtp::library);
 }
 
-BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit) {
+BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit,
+                              double merge_tolerance) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path.string() + ": no such file");
   auto* read = plugin_function<vtp::Read, InputError>(vtp::read_symbol, path, "reading");
   vtp::Lines lines;
   std::string error;
-  read(path.string(), lines, error);
-  if (error.find("too short") != std::string::npos) error += " (VTK cannot read nan or inf written as text)";
-  if (error.empty() && !is_complete(path)) error = "it does not end in </VTKFile>";
-  if (!error.empty()) throw InputError(path.string() + ": not a complete VTP file of PolyData: " + error);
-  return network_of_lines(lines, path.string(), metres_per_unit);
+  const bool is_legacy = edge_of(path, false).starts_with("# vtk DataFile");
+  read(path.string(), is_legacy ? vtp::Format::legacy : vtp::Format::xml, lines, error);
+  if (error.find("too short") != std::string::npos || error.find(": nan") != std::string::npos)
+    error += " (VTK cannot read nan or inf written as text)";
+  // VTK itself does not see that the last block of a file was cut short.
+  if (error.empty() && !is_legacy && edge_of(path, true).find("</VTKFile>") == std::string::npos)
+    error = "it does not end in </VTKFile>";
+  if (!error.empty()) {
+    throw InputError(fmt::format("{}: not a complete {} file of PolyData: {}", path.string(),
+                                 is_legacy ? "legacy VTK" : "VTP", error));
+  }
+  return network_of_lines(std::move(lines), path.string(), metres_per_unit, merge_tolerance);
 }
 
 void write_vtp_network(const std::filesystem::path& path, const Graph& graph,

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Networks as VTK's PolyData lines (.vtp), the files of ParaView and of centre line tools. VTK is in a
-/// plugin (librhexis_vtp.so, see core/plugin.hpp), which is opened by the first call.
+/// Networks as VTK's PolyData lines (.vtp, or .vtk in the legacy format), the files of ParaView and of centre
+/// line tools. VTK is in a plugin (librhexis_vtp.so, see core/plugin.hpp), which is opened by the first call.
 ///
 /// A line becomes one vessel between its end points, its length the sum of its pieces, if its interior points
 /// are its own, carry no condition, and its radius is a cell array or a point array that is constant along it
 /// (to 1e-12). It is cut at points that it shares with another line (or with itself) and at those with a
 /// condition; where the radius varies between two cuts, every piece becomes a vessel (see `tapered_radius`).
-/// Points that coincide exactly are one. Junctions are the end points of vessels, in the order of the file's
+/// Points that coincide are one, lines that repeat others are left out, gaps at ends of lines are closed
+/// (lines/line_merging.hpp). Junctions are the end points of vessels, in the order of the file's
 /// points. Where their numbers, or those of vessels, differ from the file's, their names are the file's
 /// numbers, from 0: "7" is point or cell 7, "7.2" the third vessel of cell 7.
 ///
@@ -23,6 +24,7 @@
 #include <string>
 
 #include "network/graph.hpp"
+#include "network/lines/line_network.hpp"
 
 namespace rhexis::network {
 
@@ -30,8 +32,9 @@ namespace rhexis::network {
 bool knows_vtp();
 
 /// Reads a network; throws InputError, naming the file and the cell or point at fault, also where there is
-/// no plugin.
-BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit);
+/// no plugin. `merge_tolerance`: as a fraction of the radius, see line_merging.hpp.
+BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit,
+                              double merge_tolerance = default_merge_tolerance);
 
 struct NamedArray {
   std::string name;

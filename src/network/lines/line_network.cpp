@@ -9,20 +9,27 @@
 namespace rhexis::network {
 namespace vtp {
 
-/// The points of a line, without repetitions one after the other.
-std::vector<std::size_t> Reading::distinct_points(std::size_t line) const {
+/// Calls `use(points)` for every stretch of a line between segments that are left out, with its points
+/// without repetitions one after the other.
+template <class Use>
+void Reading::for_each_stretch(std::size_t line, const Use& use) const {
   std::vector<std::size_t> points;
-  for (auto i = lines_.offsets[line]; i < lines_.offsets[line + 1]; ++i) {
-    const auto p = static_cast<std::size_t>(lines_.connectivity[static_cast<std::size_t>(i)]);
+  const auto end = static_cast<std::size_t>(lines_.offsets[line + 1]);
+  for (auto entry = static_cast<std::size_t>(lines_.offsets[line]); entry < end; ++entry) {
+    const auto p = static_cast<std::size_t>(lines_.connectivity[entry]);
     if (points.empty() || same_[points.back()] != same_[p]) points.push_back(p);
+    if (entry + 1 < end && left_out_[entry] == 0) continue;
+    if (points.size() > 1) use(points);
+    points.clear();
   }
-  return points;
 }
 
 void Reading::count_visits() {
   visits_.assign(lines_.points(), 0);
   for (std::size_t l = 0; l < lines_.lines(); ++l) {
-    for (const std::size_t p : distinct_points(l)) ++visits_[same_[p]];
+    for_each_stretch(l, [&](std::span<const std::size_t> points) {
+      for (const std::size_t p : points) ++visits_[same_[p]];
+    });
   }
 }
 
@@ -41,21 +48,25 @@ bool Reading::constant_radius(std::span<const std::size_t> run) const {
 double Reading::span_length(std::span<const std::size_t> run) const {
   double length = 0;
   for (std::size_t i = 1; i < run.size(); ++i) {
-    const double *a = &lines_.coordinates[3 * run[i - 1]], *b = &lines_.coordinates[3 * run[i]];
+    const double *a = &lines_.coordinates[3 * same_[run[i - 1]]], *b = &lines_.coordinates[3 * same_[run[i]]];
     length += std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
   }
   return length;
 }
 
 void Reading::add_line(std::size_t line) {
-  const auto points = distinct_points(line);
-  if (points.size() < 2) fail_at_cell(line, fmt::format("a line from point {} to itself", points.front()));
   const std::size_t first_vessel = from_.size();
+  for_each_stretch(line, [&](std::span<const std::size_t> points) { add_stretch(line, points); });
+  if (length_ != nullptr) share_length(line, first_vessel);
+}
+
+/// Cuts a stretch of a line into vessels.
+void Reading::add_stretch(std::size_t line, std::span<const std::size_t> points) {
   std::size_t begin = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
     const std::size_t p = same_[points[i]];
     if (i + 1 < points.size() && visits_[p] == 1 && has_condition_[p] == 0) continue;
-    const std::span<const std::size_t> run(&points[begin], i - begin + 1);
+    const auto run = points.subspan(begin, i - begin + 1);
     if (constant_radius(run)) {
       add_vessel(line, run);
     } else {
@@ -63,17 +74,29 @@ void Reading::add_line(std::size_t line) {
     }
     begin = i;
   }
-  if (length_ == nullptr) return;
+}
+
+/// Shares the length that the file gives the whole line out among its vessels, by their lengths as drawn.
+void Reading::share_length(std::size_t line, std::size_t first_vessel) {
   auto& length = result_.graph.length;
-  const double drawn = span_length(points), given = of_cell(*length_, line) * unit_;
-  for (std::size_t v = first_vessel; v < length.size(); ++v) {
-    const bool whole = length.size() == first_vessel + 1;
-    length[v] = whole ? given : given * (length[v] / (drawn * unit_));
+  double drawn = 0;
+  bool whole = length.size() == first_vessel + 1;
+  for (auto entry = lines_.offsets[line]; entry + 1 < lines_.offsets[line + 1]; ++entry) {
+    const std::size_t ends[] = {
+        static_cast<std::size_t>(lines_.connectivity[static_cast<std::size_t>(entry)]),
+        static_cast<std::size_t>(lines_.connectivity[static_cast<std::size_t>(entry) + 1])};
+    drawn += span_length(ends);
+    whole = whole && left_out_[static_cast<std::size_t>(entry)] == 0;
   }
+  const double given = of_cell(*length_, line) * unit_;
+  for (std::size_t v = first_vessel; v < length.size(); ++v)
+    length[v] = whole ? given : given * (length[v] / (drawn * unit_));
 }
 
 void Reading::add_vessel(std::size_t line, std::span<const std::size_t> run) {
   const std::size_t from = same_[run.front()], to = same_[run.back()];
+  if (from == to && is_merged_)
+    return;  // it left another line and came back to the same place: nothing flows
   if (from == to) fail_at_cell(line, fmt::format("a line from point {} to itself", from));
   from_.push_back(from);
   to_.push_back(to);
@@ -122,7 +145,8 @@ void Reading::number_junctions() {
   for (const auto& ends : {std::cref(from_), std::cref(to_)}) {
     for (const std::size_t p : ends.get()) number[p] = 0;
   }
-  bool renumbered = false;
+  const bool has_names = !lines_.point_names.empty();
+  bool renumbered = has_names;
   for (std::size_t p = 0; p < number.size(); ++p) {
     if (number[p] == none) continue;
     renumbered = renumbered || p != graph.junctions;
@@ -131,7 +155,7 @@ void Reading::number_junctions() {
     graph.x.push_back(lines_.coordinates[3 * p] * unit_);
     graph.y.push_back(lines_.coordinates[3 * p + 1] * unit_);
     graph.z.push_back(lines_.coordinates[3 * p + 2] * unit_);
-    graph.junction_name.push_back(std::to_string(p));
+    graph.junction_name.push_back(has_names ? lines_.point_names[p] : std::to_string(p));
   }
   if (!renumbered) graph.junction_name.clear();
   for (const std::size_t p : from_) graph.from.push_back(number[p]);
@@ -146,13 +170,14 @@ void Reading::number_junctions() {
 
 /// A vessel is named as its cell, with the number of the piece where the cell was cut.
 void Reading::name_vessels() {
-  bool renumbered = false;
+  bool renumbered = !lines_.line_names.empty();
   std::vector<std::string>& names = result_.graph.vessel_name;
   for (std::size_t v = 0; v < line_.size();) {
     std::size_t end = v;
     while (end < line_.size() && line_[end] == line_[v]) ++end;
     renumbered = renumbered || end != v + 1 || cell(line_[v]) != static_cast<std::int64_t>(v);
-    const std::string name = std::to_string(cell(line_[v]));
+    const std::string name =
+        lines_.line_names.empty() ? std::to_string(cell(line_[v])) : lines_.line_names[line_[v]];
     for (std::size_t piece = 0; piece < end - v; ++piece)
       names.push_back(end == v + 1 ? name : fmt::format("{}.{}", name, piece));
     v = end;
@@ -168,8 +193,9 @@ double tapered_radius(double a, double b) {
   return a * std::pow(3 * t * t * t / (1 + t + t * t), 0.25);
 }
 
-BoundedGraph network_of_lines(const vtp::Lines& lines, const std::string& file, double metres_per_unit) {
-  return vtp::Reading(lines, file, metres_per_unit).network();
+BoundedGraph network_of_lines(vtp::Lines lines, const std::string& file, double metres_per_unit,
+                              double merge_tolerance) {
+  return vtp::Reading(std::move(lines), file, metres_per_unit, merge_tolerance).network();
 }
 
 }  // namespace rhexis::network

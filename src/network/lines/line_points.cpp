@@ -4,12 +4,14 @@
 #include <limits>
 #include <numeric>
 
+#include "network/lines/line_merging.hpp"
 #include "network/lines/line_reading.hpp"
 
 namespace rhexis::network::vtp {
 namespace {
 
 constexpr std::array radius_names{"radius", "Radius", "MaximumInscribedSphereRadius", "diameter", "Diameter"};
+constexpr std::array condition_names{"pressure_condition", "flow_condition"};
 
 }  // namespace
 
@@ -74,12 +76,42 @@ void Reading::merge_points() {
     const bool repeated = i > 0 && place(order[i]) == place(order[i - 1]);
     same_[order[i]] = repeated ? same_[order[i - 1]] : order[i];
   }
+  for (std::size_t l = 0; l < lines_.lines(); ++l) {
+    const std::span points(&lines_.connectivity[static_cast<std::size_t>(lines_.offsets[l])],
+                           static_cast<std::size_t>(lines_.offsets[l + 1] - lines_.offsets[l]));
+    const auto at_first = [&](std::int64_t p) {
+      return same_[static_cast<std::size_t>(p)] == same_[static_cast<std::size_t>(points.front())];
+    };
+    if (std::ranges::all_of(points, at_first))
+      fail_at_cell(l, fmt::format("a line from point {} to itself", points.front()));
+  }
+}
+
+void Reading::merge_lines() {
+  std::vector<char> has_condition(lines_.points());
+  for (const char* name : condition_names) {
+    const Array* array = find(lines_.point_arrays, name);
+    for (std::size_t p = 0; array != nullptr && p < lines_.points(); ++p) {
+      if (!std::isnan(array->values[p])) has_condition[same_[p]] = 1;
+    }
+  }
+  LineDrawing drawing(lines_, {cell_radius_, point_radius_, radius_factor_}, tolerance_, std::move(same_),
+                      std::move(has_condition));
+  const auto note = [&](std::vector<std::string> notes) {
+    for (std::string& sentence : notes) result_.notes.push_back(std::move(sentence));
+    drawing.insert_points();
+  };
+  note(leave_out_repetitions(drawing, unit_));
+  note(close_gaps(drawing, unit_));
+  is_merged_ = drawing.is_changed();
+  same_ = drawing.places();
+  left_out_ = drawing.left_out();
 }
 
 void Reading::find_conditions() {
   has_condition_.assign(lines_.points(), 0);
-  const Array* pressure = find(lines_.point_arrays, "pressure_condition");
-  const Array* flow = find(lines_.point_arrays, "flow_condition");
+  const Array* pressure = find(lines_.point_arrays, condition_names[0]);
+  const Array* flow = find(lines_.point_arrays, condition_names[1]);
   if (pressure != nullptr) add_condition(*pressure, BoundaryCondition::Kind::pressure);
   if (flow != nullptr) add_condition(*flow, BoundaryCondition::Kind::flow);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The work behind line_network.hpp: what the file has (line_points.cpp) and how it is cut (line_network.cpp).
+/// The work behind line_network.hpp: what the file has (line_points.cpp) and how it is cut
+/// (line_network.cpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -12,20 +13,21 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "network/graph.hpp"
 #include "network/files/vtp/interface.hpp"
+#include "network/graph.hpp"
 
 namespace rhexis::network::vtp {
 
 class Reading {
  public:
-  Reading(const Lines& lines, const std::string& file, double metres_per_unit)
-      : lines_(lines), file_(file), unit_(metres_per_unit) {}
+  Reading(Lines lines, const std::string& file, double metres_per_unit, double merge_tolerance)
+      : lines_(std::move(lines)), file_(file), unit_(metres_per_unit), tolerance_(merge_tolerance) {}
 
   BoundedGraph network() {
     check_lines();
     find_arrays();
     merge_points();
+    merge_lines();
     find_conditions();
     count_visits();
     for (std::size_t l = 0; l < lines_.lines(); ++l) add_line(l);
@@ -64,11 +66,15 @@ class Reading {
   void find_arrays();
   std::string array_list() const;
   void merge_points();
+  void merge_lines();
   void find_conditions();
   void add_condition(const Array& array, BoundaryCondition::Kind kind);
   void count_visits();
-  std::vector<std::size_t> distinct_points(std::size_t line) const;
+  template <class Use>
+  void for_each_stretch(std::size_t line, const Use& use) const;
   void add_line(std::size_t line);
+  void add_stretch(std::size_t line, std::span<const std::size_t> points);
+  void share_length(std::size_t line, std::size_t first_vessel);
   double radius_at(std::size_t point) const;
   bool constant_radius(std::span<const std::size_t> run) const;
   double span_length(std::span<const std::size_t> run) const;
@@ -78,18 +84,20 @@ class Reading {
   void number_junctions();
   void name_vessels();
 
-  const Lines& lines_;
+  Lines lines_;
   const std::string& file_;
-  const double unit_;
+  const double unit_, tolerance_;
   const Array *cell_radius_ = nullptr, *point_radius_ = nullptr;
   double radius_factor_ = 1;  ///< 1/2 of a diameter
   const Array *length_ = nullptr, *wall_ = nullptr, *kind_ = nullptr, *generation_ = nullptr;
   std::vector<std::size_t> same_;             ///< [point] the first point at its place
+  std::vector<char> left_out_;                ///< [connectivity] the segment repeats what is there already
   std::vector<std::size_t> visits_;           ///< [point] by lines, of first points
   std::vector<BoundaryCondition> condition_;  ///< junctions still numbered as points
   std::vector<char> has_condition_;           ///< [point]
   std::vector<std::size_t> from_, to_;        ///< [vessel] as points
   std::vector<std::size_t> line_;             ///< [vessel]
+  bool is_merged_ = false;                    ///< whether lines were joined or left out
   BoundedGraph result_;
 };
 

@@ -22,8 +22,6 @@
 
 namespace rhexis::network {
 
-using Point = std::array<double, 3>;
-
 /// One vessel in full.
 struct TreeVessel {
   std::uint64_t id = 0;

@@ -262,7 +262,8 @@ WORDS = (*TEXT, word, word, word, all_numbers)
 VTP = (number, lines, xml_token, xml_token, xml_token)
 BYTES = (bytes_anywhere, bytes_anywhere, truncated, other_encoding)
 MANIFEST = (lines, piece, manifest_line, manifest_line)
-BY_ENDING = {".txt": MANIFEST, ".toml": TOML, ".csv": CSV, ".json": JSON, ".vtp": VTP, ".graphml": (*VTP, piece), ".dat": WORDS}
+BY_ENDING = {".txt": MANIFEST, ".toml": TOML, ".csv": CSV, ".json": JSON, ".vtp": VTP, ".graphml": (*VTP, piece), ".dat": WORDS, ".vtk": WORDS,
+             ".swc": WORDS}
 
 
 def other_word(random, text, keys):

@@ -17,6 +17,32 @@ from study.program import ALONE, is_text
 BATCH = 200  # files for each start of the driver
 SECONDS_OF_BATCH = 120  # of a processor
 
+SWC = """\
+# a fork with a soma
+1 1 0 0 0 20 -1
+2 3 100 0 0 15 1
+3 3 200 20 0 10.5 2
+4 3 300 60 0 8 3
+5 3 180 -40 0 9 2
+"""
+VTK = """\
+# vtk DataFile Version 3.0
+a fork
+ASCII
+DATASET POLYDATA
+POINTS 4 float
+0 0 0 1 0 0 2 0.5 0 2 -0.5 0
+LINES 2 7
+3 0 1 2
+2 1 3
+POINT_DATA 4
+SCALARS radius double 1
+LOOKUP_TABLE default
+0.3 0.28 0.2 0.22
+FIELD FieldData 1
+pressure_condition 1 4 double
+8000 5000 2000 2500
+"""
 SECOMB = """\
 a fork
 100 100 50  box
@@ -65,6 +91,8 @@ def formats():
         "csv": {"j.csv": scenes.CSV_JUNCTIONS, "v.csv": scenes.CSV_VESSELS},
         "json": {"n.json": scenes.JSON_NETWORK},
         "vtp": {"n.vtp": scenes.vtp_network()},
+        "vtk": {"n.vtk": VTK},
+        "swc": {"n.swc": SWC},
         "dat": {"n.dat": SECOMB},
         "graphml": {"n.graphml": GRAPHML},
     }

@@ -135,19 +135,79 @@ TEST_F(VtpNetwork, Mistakes) {
 }
 
 TEST_F(VtpNetwork, RefusesWhatCrashesVtk) {
-  const std::string two = "0 0 0 1 0 0", radius = array("radius", "1");
-  const auto with = [&](const std::string& from, const std::string& to) {
-    std::string text = polydata(2, 1, two, "0 1", "2", "", radius);
-    const auto place = text.find(from);
-    EXPECT_NE(place, std::string::npos) << from;
-    return text.replace(place, from.size(), to);
+  const std::string good = polydata(2, 1, "0 0 0 1 0 0", "0 1", "2", "", array("radius", "1"));
+  EXPECT_EQ(read_vtp_network(write(good), 1).graph.vessels(), 1u);
+  struct Case {
+    std::string from, to;  // what is put in place of a part of the good file
+    std::vector<std::string> fragments;
   };
-  for (const std::string number : {"-1", "-2147483648"})
-    refused(with("NumberOfPoints=\"2\"", "NumberOfPoints=\"" + number + "\""), {"n.vtp", "VTK"});
-  for (const std::string number : {"4294967296", "99999999999999"})
-    refused(with("NumberOfVerts=\"0\"", "NumberOfVerts=\"" + number + "\""), {"n.vtp", "VTK", "tags"});
-  refused(with("Name=\"connectivity\" format=\"ascii\"", "Name=\"connectivity\" format=\"binary\""),
-          {"n.vtp"});
+  const std::string integers =
+      "<DataArray type=\"Int32\" Name=\"radius\" format=\"ascii\">1</DataArray></CellData>";
+  const Case cases[] = {
+      {"NumberOfPoints=\"2\"", "NumberOfPoints=\"-1\"", {"VTK"}},
+      {"NumberOfPoints=\"2\"", "NumberOfPoints=\"-2147483648\"", {"VTK"}},
+      {"NumberOfVerts=\"0\"", "NumberOfVerts=\"4294967296\"", {"VTK", "tags"}},
+      {"NumberOfVerts=\"0\"", "NumberOfVerts=\"99999999999999\"", {"VTK", "tags"}},
+      {"NumberOfLines=\"1\"", "NumberOfLines=\"\"", {"no lines (but 2 points)"}},
+      {"Name=\"radius\"",
+       "Name=\"radius\" NumberOfComponents=\"4294967296\"",
+       {"array radius", "4294967296"}},
+      {"Name=\"radius\"", "Name=\"radius\" NumberOfComponents=\"-1\"", {"array radius", "-1 components"}},
+      {"</CellData>", array("radius", "1") + "</CellData>", {"two arrays", "the name radius"}},
+      {"</CellData>", integers, {"two arrays", "the name radius"}},
+      {"Name=\"connectivity\" format=\"ascii\"", "Name=\"connectivity\" format=\"binary\"", {"VTP"}},
+      {"byte_order", "header_type=\"UInt6\" byte_order", {"header_type"}},
+  };
+  for (const Case& c : cases) {
+    std::string text = good;
+    const auto place = text.find(c.from);
+    ASSERT_NE(place, std::string::npos) << c.from;
+    SCOPED_TRACE(c.to);
+    refused(text.replace(place, c.from.size(), c.to), c.fragments);
+  }
+}
+
+/// Four bytes of a number, as VTK writes them before each block of data; then the numbers.
+std::string block(const std::vector<double>& values) {
+  const auto size = static_cast<std::uint32_t>(values.size() * sizeof(double));
+  return std::string(reinterpret_cast<const char*>(&size), 4) +
+         std::string(reinterpret_cast<const char*>(values.data()), size);
+}
+
+TEST_F(VtpNetwork, AppendedDataAreRead) {
+  // Bytes that no XML has stand behind the tags: VTK has to know where the data begin.
+  const std::string points = block({0, 0, 0, 3e-3, 0, 0}), radius = block({1e-3});
+  std::string text = polydata(2, 1, "", "0 1", "2", "", array("radius", ""));
+  const auto append = [&](const std::string& tag, std::size_t offset) {
+    const auto place = text.find("format=\"ascii\"></DataArray>", text.find(tag));
+    text.replace(place, 27, "format=\"appended\" offset=\"" + std::to_string(offset) + "\"/>");
+  };
+  append("Name=\"radius\"", 0);
+  append("<Points>", radius.size());
+  text.insert(text.find("</VTKFile>"),
+              "<AppendedData encoding=\"raw\">_" + radius + points + "</AppendedData>");
+  const Graph g = read_vtp_network(write(text), 1).graph;
+  ASSERT_EQ(g.vessels(), 1u);
+  EXPECT_EQ(g.length[0], 3e-3);
+  EXPECT_EQ(g.radius[0], 1e-3);
+}
+
+/// A fork in the legacy format: the radii of points, and conditions in a field.
+TEST_F(VtpNetwork, LegacyFilesAreRead) {
+  const std::string text =
+      "# vtk DataFile Version 3.0\na fork\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n"
+      "0 0 0 3 0 0 3 4 0 3 -4 0\nLINES 2 7\n3 0 1 2\n2 1 3\nPOINT_DATA 4\n"
+      "SCALARS radius double 1\nLOOKUP_TABLE default\n1 1 1 0.5\n"
+      "FIELD FieldData 1\nlength 1 4 double\n0 0 0 0\n";
+  const Graph g = read_vtp_network(write(text), 1e-3).graph;
+  ASSERT_EQ(g.vessels(), 3u);
+  EXPECT_DOUBLE_EQ(g.length[0], 3e-3);
+  EXPECT_DOUBLE_EQ(g.length[1], 4e-3);
+  EXPECT_DOUBLE_EQ(g.radius[1], 1e-3);
+  EXPECT_NEAR(g.radius[2], 1e-3 * tapered_radius(1, 0.5), 1e-18);
+  refused(text.substr(0, text.find("SCALARS") + 12), {"legacy VTK"});
+  refused(text.substr(0, text.find("LINES")), {"no lines"});
+  refused("# vtk DataFile Version 3.0\n", {"legacy VTK"});
 }
 
 }  // namespace

@@ -12,19 +12,81 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataReader.h>
 #include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLDataParser.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <set>
 
 #include "network/files/vtp/child_process.hpp"
 #include "network/files/vtp/interface.hpp"
 
+extern "C" {
+/// Of expat, since 2.6 and in older ones with their security patches; null in those without.
+[[gnu::weak]] unsigned char XML_SetReparseDeferralEnabled(void* parser, unsigned char enabled);
+}
+
 namespace rhexis::network::vtp {
 namespace {
+
+/// VTK's parser, told to report the tag of appended data as soon as it has read it: newer versions of expat
+/// may wait for more text, and VTK 9.1 then takes the data for text.
+class PromptParser : public vtkXMLDataParser {
+ public:
+  vtkTypeMacro(PromptParser, vtkXMLDataParser) static PromptParser* New() {
+    VTK_STANDARD_NEW_BODY(PromptParser);
+  }
+
+ protected:
+  int CreateParser() override {
+    const int done = vtkXMLDataParser::CreateParser();
+    if (done != 0 && XML_SetReparseDeferralEnabled != nullptr) XML_SetReparseDeferralEnabled(Parser, 0);
+    return done;
+  }
+};
+
+class XmlReader : public vtkXMLPolyDataReader {
+ public:
+  vtkTypeMacro(XmlReader, vtkXMLPolyDataReader) static XmlReader* New() { VTK_STANDARD_NEW_BODY(XmlReader); }
+
+ protected:
+  void CreateXMLParser() override { XMLParser = PromptParser::New(); }
+
+  int ReadPrimaryElement(vtkXMLDataElement* data) override {
+    if (const std::string fault = fault_of(data); !fault.empty()) {
+      vtkErrorMacro(<< fault);
+      return 0;
+    }
+    return vtkXMLPolyDataReader::ReadPrimaryElement(data);
+  }
+
+ private:
+  /// Faults in a list of arrays, or in those below it, that VTK does not see and that take it out of its
+  /// memory or into a loop; empty: there are none.
+  static std::string fault_of(vtkXMLDataElement* list) {
+    constexpr vtkIdType most_components = 1 << 20;
+    std::set<std::string> names;
+    for (int i = 0; i < list->GetNumberOfNestedElements(); ++i) {
+      vtkXMLDataElement* element = list->GetNestedElement(i);
+      const char* given = element->GetAttribute("Name");
+      const std::string name = given == nullptr ? "" : given;
+      if (given != nullptr && !names.insert(name).second)
+        return "two arrays of the points, or of the cells, have the name " + name;
+      vtkIdType components = 1;
+      if (element->GetScalarAttribute("NumberOfComponents", components) != 0 &&
+          (components < 1 || components > most_components))
+        return "array " + name + " has " + std::to_string(components) + " components";
+      if (const std::string fault = fault_of(element); !fault.empty()) return fault;
+    }
+    return {};
+  }
+};
 
 /// Takes what VTK would print: errors are kept, the rest is dropped.
 class SilentWindow : public vtkOutputWindow {
@@ -171,10 +233,10 @@ std::string complaint(const Silence& silence, bool done, unsigned long code) {
   return done && code == 0 ? std::string() : "VTK's error code " + std::to_string(code);
 }
 
-void read_here(const std::string& path, Lines& lines, std::string& problem) try {
+/// Reads what a reader of VTK's is set up for.
+template <class Reader>
+void read_here(Reader* reader, Lines& lines, std::string& problem) try {
   const Silence silence;
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName(path.c_str());
   reader->Update();
   problem = complaint(silence, true, reader->GetErrorCode());
   vtkPolyData* data = reader->GetOutput();
@@ -186,14 +248,32 @@ void read_here(const std::string& path, Lines& lines, std::string& problem) try 
   problem = error.what();
 }
 
+void read_xml(const std::string& path, Lines& lines, std::string& problem) {
+  vtkNew<XmlReader> reader;
+  reader->SetFileName(path.c_str());
+  read_here(reader.Get(), lines, problem);
+}
+
+void read_legacy(const std::string& path, Lines& lines, std::string& problem) {
+  vtkNew<vtkPolyDataReader> reader;
+  reader->SetFileName(path.c_str());
+  // VTK reads the first array of a kind only, unless it is told otherwise.
+  reader->ReadAllScalarsOn();
+  reader->ReadAllVectorsOn();
+  reader->ReadAllFieldsOn();
+  read_here(reader.Get(), lines, problem);
+}
+
 }  // namespace
 
-extern "C" void rhexis_vtp_read(const std::string& path, Lines& lines, std::string& problem) try {
+extern "C" void rhexis_vtp_read(const std::string& path, Format format, Lines& lines,
+                                std::string& problem) try {
   std::error_code failure;
   const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
   problem = failure ? failure.message() : std::string();
-  if (!failure)
-    read_in_child([&](Lines& l, std::string& p) { read_here(path, l, p); }, bytes, lines, problem);
+  if (failure) return;
+  const auto read = format == Format::legacy ? read_legacy : read_xml;
+  read_in_child([&](Lines& l, std::string& p) { read(path, l, p); }, bytes, lines, problem);
 } catch (const std::exception& error) {
   problem = error.what();
 }
