@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,9 +22,6 @@
 #include "core/text_encoding.hpp"
 
 namespace rhexis {
-
-/// Turns a quantity as written ("1 um") into SI ("m"); throws InputError.
-using ToSi = std::function<double(std::string_view text, std::string_view unit)>;
 
 struct CsvOptions {
   /// Columns that are not known are skipped, and `skipped()` names them; else they are refused.
@@ -249,21 +245,17 @@ class CsvTable {
 
   double factor_of(const Column& column, const Heading& heading, const std::string& field,
                    const ToSi& to_si) {
-    if (column.unit.empty()) return 1;
-    if (column.unit == "1") return heading.unit == "%" ? 0.01 : 1;
-    std::string unit = heading.unit;
-    if (unit.empty() && column.unit == "m" && !options_.length_unit.empty()) {
-      uses_length_unit_ = true;
-      unit = options_.length_unit;
-    }
-    if (unit.empty())
-      throw InputError(where() + ": column " + column.name + " needs its unit, as in '" + column.name + " [" +
-                       column.unit + "]'" + (column.unit == "m" ? options_.length_unit_hint : ""));
+    UnitOfColumn unit;
     try {
-      return to_si("1 " + unit, column.unit);
+      unit = unit_of(column, heading, options_.length_unit, to_si);
     } catch (const InputError& error) {
       throw InputError(where() + ": column " + shown(field) + ": " + error.what());
     }
+    if (!unit.factor)
+      throw InputError(where() + ": column " + column.name + " needs its unit, as in '" + column.name + " [" +
+                       column.unit + "]'" + (column.unit == "m" ? options_.length_unit_hint : ""));
+    uses_length_unit_ = uses_length_unit_ || unit.is_the_length_unit;
+    return *unit.factor;
   }
 
   std::string file_, text_;

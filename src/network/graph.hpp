@@ -66,6 +66,8 @@ struct BoundaryCondition {
 struct BoundedGraph {
   Graph graph;
   std::vector<BoundaryCondition> conditions;
+  /// Junctions of which the file tells only whether blood flows in or out there, which settles no flow.
+  std::vector<std::uint32_t> directed_ends = {};
   std::vector<std::string> notes = {};     ///< sentences for the user: what was ignored, merged or assumed
   std::vector<std::string> warnings = {};  ///< sentences for the user: what is probably not meant
   std::string file = {};                   ///< that the vessels are from

@@ -122,7 +122,7 @@ ParameterList declare(Parameters& p) {
        .only_with = {when("network.source", Source::tree)}},
   };
   for (const ParameterList& part :
-       {declare(p.conditions), declare(p.tree), declare(p.wall), declare(p.weakness)})
+       {declare(p.conditions), declare(p.tree), declare(p.wall), declare(p.wall_ranges), declare(p.weakness)})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

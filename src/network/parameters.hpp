@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Input keys of the sections network, condition, tree, wall and weakness.
+/// Input keys of the sections network, condition, tree, wall, wall_range and weakness.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "core/parameter.hpp"
 #include "network/lines/line_network.hpp"
 #include "network/repair/end_conditions.hpp"
+#include "network/repair/wall_ranges.hpp"
 #include "network/tree/tree_rules.hpp"
 #include "network/wall.hpp"
 #include "network/wall_variation.hpp"
@@ -57,6 +58,7 @@ struct Parameters {
   bool vtp = false;
   TreeParameters tree;
   WallParameters wall;
+  std::vector<WallRange> wall_ranges;
   WeaknessParameters weakness;
 
   bool is_tree() const { return source == Source::tree; }

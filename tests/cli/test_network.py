@@ -1,163 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program on networks, as a user meets it: runs, records, tables, wrong input, ranks.
+"""The program on networks, as a user meets it: flows, statistics, records, tables, ranks.
 
 Run by ctest as: test_network.py RHEXIS SOURCE_DIR MPIRUN...
 """
 
 import csv
-import json
 import os
-import pathlib
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
-RHEXIS, SOURCE, *MPIRUN = sys.argv[1:]
-
-TREE = """\
-[scene]
-model = "network"
-
-[tree]
-generations = 12
-root_radius = "2 mm"
-asymmetry = 0.9
-least_asymmetry = 0.4
-length_spread = 0.2
-
-[flow]
-inlet_pressure = "90 mmHg"
-outlet_pressure = "5 mmHg"
-
-[network]
-query = ["artery.", "vein.0110", "4095"]
-shown_vessels = 300
-"""
-JUNCTIONS = "id,x [mm],y [mm],z [mm],pressure [mmHg]\na,0,0,0,10\nb,3,4,0,\nc,3,4,12,0\n"
-VESSELS = "id,from,to,radius [um]\n1,a,b,50\n2,b,c,40\n"
-FILES = """\
-[scene]
-model = "network"
-[network]
-source = "file"
-files = ["j.csv", "v.csv"]
-"""
+from network_case import FILES, JUNCTIONS, RHEXIS, SOURCE, TREE, VESSELS, NetworkCase, tree
 
 
-def tree(line_start, new):
-    return "\n".join(new if line.startswith(line_start) else line for line in TREE.splitlines()) + "\n"
-
-
-# name, input, what the message must contain
-WRONG = [
-    ("section of the other model", TREE + "[vessel]\nlength = \"2 mm\"\n", ["[vessel]", "scene.model", "vessel", "network"]),
-    ("network section in a vessel scene", TREE.replace('model = "network"', ""), ["[tree]", "scene.model"]),
-    ("model", tree("model", 'model = "tree"'), ["scene.model", "vessel", "network"]),
-    ("no generations", tree("generations", ""), ["tree.generations", "1 to 40"]),
-    ("too many generations", tree("generations", "generations = 41"), ["tree.generations", "40"]),
-    ("radius without unit", tree("root_radius", "root_radius = 2"), ["tree.root_radius", "unit"]),
-    ("terminal radius above the root's", tree("asymmetry", 'terminal_radius = "3 mm"'), ["tree.terminal_radius", "below"]),
-    ("both exponent and terminal radius", tree("asymmetry", 'terminal_radius = "3 um"\nradius_exponent = 3'), ["both"]),
-    ("asymmetries swapped", tree("least_asymmetry", "least_asymmetry = 0.95"), ["tree.least_asymmetry", "asymmetry"]),
-    ("lengths of too few generations", tree("length_spread", "length_ratio_by_generation = [10, 20]"), ["length_ratio_by_generation", "12"]),
-    ("curve of one point", tree("length_spread", 'length_by_radius = [["1 mm", "2 mm"]]'), ["length_by_radius", "two"]),
-    ("curve that falls back", tree("length_spread", 'length_by_radius = [["2 mm", "2 mm"], ["1 mm", "2 mm"]]'), ["length_by_radius", "increase"]),
-    ("one condition", tree("outlet_pressure", ""), ["flow.inlet_pressure", "two"]),
-    ("three conditions", tree("outlet_pressure", 'outlet_pressure = "5 mmHg"\ninlet_flow = "1 L/min"'), ["two"]),
-    ("absent vessel", tree("query", 'query = ["artery.0120"]'), ["network.query", "0120", "0 and 1"]),
-    ("vessel beyond the last", tree("query", 'query = ["8190"]'), ["network.query", "8189"]),
-    ("path too long", tree("query", 'query = ["vein.000000000000"]'), ["network.query", "11 steps"]),
-    ("acceleration of two components", tree("outlet_pressure", 'outlet_pressure = "5 mmHg"\nacceleration = ["1 m/s2", "0 m/s2"]'), ["flow.acceleration", "three"]),
-    ("phase separation without a graph", TREE + "[blood]\nphase_separation = true\n", ["blood.phase_separation", "explicit"]),
-    ("one file of two", TREE.replace("[network]", '[network]\nsource = "file"\nfiles = ["j.csv"]'), ["network.files", "j.csv", "two .csv"]),
-    ("files of a tree", TREE.replace("[network]", '[network]\nfiles = ["j.csv"]'), ["network.files", "source"]),
-    ("haematocrit of one", TREE + "[blood]\nhaematocrit = 1\n", ["blood.haematocrit"]),
-    ("huge explicit tree", tree("generations", "generations = 34").replace("[network]", '[network]\ntier = "explicit"'), ["network.tier", "implicit"]),
-    ("huge distributed tree", tree("generations", "generations = 40").replace("[network]", '[network]\ntier = "distributed"'), ["network.tier", "GB"]),
-    ("daughters of nothing", tree("least_asymmetry", "least_asymmetry = 1e-4\nradius_exponent = 6"), ["tree.least_asymmetry", "narrower daughter"]),
-    ("vessels thinner than molecules", tree("asymmetry", "asymmetry = 1e-3\nradius_exponent = 2").replace("least_asymmetry = 0.4\n", ""), ["tree.asymmetry", "narrowest", "m"]),
-    ("absent script", TREE + '[insitu]\nscripts = ["nowhere.py"]\n', ["insitu.scripts", "nowhere.py"]),
-]
-# name, junctions, vessels, message
-WRONG_FILES = [
-    ("floating component", JUNCTIONS + "d,9,9,9,\ne,9,9,8,\n", VESSELS + "3,d,e,50\n", ["junction d", "pressure"]),
-    ("negative radius", JUNCTIONS, VESSELS.replace(",50", ",-50"), ["v.csv:2", "radius"]),
-    ("zero length", JUNCTIONS.replace("3,4,0", "0,0,0"), VESSELS, ["v.csv:2", "length"]),
-    ("nan", JUNCTIONS, VESSELS.replace(",50", ",nan"), ["v.csv:2", "nan"]),
-    ("self loop", JUNCTIONS, VESSELS.replace("1,a,b", "1,a,a"), ["v.csv:2", "itself"]),
-    ("duplicate", JUNCTIONS, VESSELS.replace("2,b", "1,b"), ["v.csv:3", "already"]),
-    ("unknown junction", JUNCTIONS, VESSELS.replace("1,a", "1,q"), ["v.csv:2", "from = q"]),
-    ("cut short", JUNCTIONS, VESSELS[:-6], ["v.csv:3", "cut short"]),
-    ("unit missing", JUNCTIONS, VESSELS.replace(" [um]", ""), ["v.csv:1", "radius", "unit"]),
-    ("wrong dimension", JUNCTIONS, VESSELS.replace("[um]", "[mmHg]"), ["v.csv:1", "radius"]),
-]
-
-
-class Network(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory(prefix="rhexis_network_")
-        self.addCleanup(self.folder.cleanup)
-        self.path = pathlib.Path(self.folder.name)
-
-    def write(self, name, text):
-        (self.path / name).write_text(text, encoding="utf-8")
-
-    def rhexis(self, *arguments, ranks=None):
-        launcher = [*MPIRUN, "-n", str(ranks)] if ranks else []
-        return subprocess.run([*launcher, RHEXIS, *arguments], cwd=self.path, capture_output=True, text=True, timeout=300,
-                              stdin=subprocess.DEVNULL, check=False)
-
-    def run_well(self, *arguments, ranks=None):
-        result = self.rhexis("run", *arguments, ranks=ranks)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return result
-
-    def record(self, folder):
-        return json.loads((self.path / folder / "run.json").read_text())
-
-    def assert_refused(self, result, fragments, name, files):
-        self.assertEqual(result.returncode, 2, f"{name}: {result.stderr}")
-        self.assertEqual(result.stderr.count("rhexis: "), 1, f"{name}: not one message: {result.stderr}")
-        for fragment in fragments:
-            self.assertIn(fragment, result.stderr, name)
-        self.assertEqual(sorted(os.listdir(self.path)), sorted(files), f"{name}: something was written")
-
-    def test_wrong_inputs(self):
-        for name, text, fragments in WRONG:
-            with self.subTest(name):
-                self.write("n.toml", text)
-                self.assert_refused(self.rhexis("run", "n.toml"), ["n.toml", *fragments], name, ["n.toml"])
-        self.write("n.toml", WRONG[-8][1])
-        self.assert_refused(self.rhexis("run", "n.toml", ranks=3), WRONG[-8][2], "three ranks", ["n.toml"])
-
-    def test_wrong_files(self):
-        self.write("n.toml", FILES)
-        files = ["n.toml", "j.csv", "v.csv"]
-        for name, junctions, vessels, fragments in WRONG_FILES:
-            self.write("j.csv", junctions)
-            self.write("v.csv", vessels)
-            for more, ranks in (([], None), ([], 2), (["--set", "network.tier=distributed"], 2)):
-                with self.subTest(name, ranks=ranks, more=more):
-                    self.assert_refused(self.rhexis("run", "n.toml", *more, ranks=ranks), fragments, name, files)
-        self.write("v.csv", VESSELS)
-        for tier in ("explicit", "distributed"):
-            result = self.rhexis("run", "n.toml", "--set", "network.query=['9']", "--set", f"network.tier={tier}", ranks=2)
-            self.assert_refused(result, ["no vessel '9'"], f"query, {tier}", files)
-        for key, value in (("flow.inlet_pressure", "100 mmHg"), ("tree.generations", "4")):
-            result = self.rhexis("run", "n.toml", "--set", f"{key}={value}")
-            self.assert_refused(result, [key, value, "the files say it"], key, files)
-        # More loops than series and parallel vessels make.
-        self.write("v.csv", VESSELS + "3,a,c,9\n4,d,b,9\n5,d,c,9\n6,b,e,9\n7,e,c,9\n8,e,f,9\n9,f,b,9\n10,f,c,9\n")
-        self.write("j.csv", JUNCTIONS + "d,1,1,1,20\ne,2,2,2,\nf,3,2,2,\n")
-        result = self.rhexis("run", "n.toml", "--set", "network.solver=elimination")
-        self.assert_refused(result, ["'elimination' leaves", "'auto'"], "elimination", files)
-        self.write("v.csv", VESSELS)
-        os.remove(self.path / "j.csv")
-        self.assert_refused(self.rhexis("run", "n.toml"), ["network.files", "j.csv"], "absent file", ["n.toml", "v.csv"])
-
+class Network(NetworkCase):
     def test_tiers_and_ranks_agree(self):
         self.write("n.toml", TREE)
         self.run_well("n.toml", "-o", "one")
@@ -297,16 +155,7 @@ class Network(unittest.TestCase):
         result = self.run_well(os.path.join(SOURCE, "inputs/own_network.toml"), "-o", "short", "--set", "insitu.enabled=false",
                                "--set", "blood.phase_iterations=3")
         self.assertIn("not converged", result.stderr)
-
-    def test_check(self):
-        self.write("n.toml", TREE)
-        result = self.rhexis("check", "n.toml")
-        self.assertEqual(result.returncode, 0, result.stderr)
-        for text in ("8,190", "2 mm", "memory", "time"):
-            self.assertIn(text, result.stdout)
-        self.assertEqual(os.listdir(self.path), ["n.toml"])
-        result = self.rhexis("check", "n.toml", "--set", "network.tier=distributed", "--set", "tree.generations=40")
-        self.assert_refused(result, ["network.tier", "GB", "implicit"], "check of a tree that fits no machine", ["n.toml"])
+        self.assertNotIn("fixed point", result.stdout)
 
     def test_trees_of_one_generation_on_several_ranks(self):
         self.write("n.toml", tree("generations", "generations = 1").replace('query = ["artery.", "vein.0110", "4095"]', "")
@@ -317,23 +166,6 @@ class Network(unittest.TestCase):
             flows.append(self.record("out")["results"]["network"]["inflow_m3_s"])
         self.assertEqual(flows, [flows[0]] * 3)
 
-    def test_junctions_without_vessels_count(self):
-        self.write("n.toml", FILES)
-        self.write("v.csv", VESSELS)
-        self.write("j.csv", JUNCTIONS + "d,9,9,9,\n")
-        for tier, ranks in (("explicit", None), ("distributed", 2)):
-            self.run_well("n.toml", "-o", "out", "--set", f"network.tier={tier}", ranks=ranks)
-            self.assertEqual(self.record("out")["results"]["network"]["junctions"], 4)
-
-    def test_networks_without_places_are_not_drawn(self):
-        self.write("n.toml", FILES)
-        self.write("v.csv", "id,from,to,radius [um],length [mm]\n1,a,b,50,5\n2,b,c,40,12\n")
-        self.write("j.csv", "id,pressure [mmHg]\na,10\nb,\nc,0\n")
-        for more, ranks in (([], None), (["--set", "network.tier=distributed"], 2)):
-            result = self.run_well("n.toml", "-o", "out", "--set", f"insitu.scripts=['{SOURCE}/catalyst_scripts/network.py']", *more, ranks=ranks)
-            self.assertIn("no coordinates", result.stderr)
-            self.assertEqual(self.record("out")["status"], "completed")
-
     def test_histograms_say_what_they_hold(self):
         self.write("n.toml", tree("outlet_pressure", 'outlet_pressure = "-20 mmHg"'))
         result = self.run_well("n.toml", "-o", "out")
@@ -341,85 +173,6 @@ class Network(unittest.TestCase):
         with open(self.path / "out/histograms.csv", encoding="utf-8") as file:
             edges = [row["from"] for row in csv.DictReader(file) if (row["kind"], row["quantity"]) == ("vein", "hoop_stress_Pa")]
         self.assertIn("-inf", edges)
-
-    def test_conditions_of_the_input_and_what_is_left_out(self):
-        self.write("j.csv", JUNCTIONS + "d,9,9,9,\ne,9,9,8,\n")
-        self.write("v.csv", VESSELS + "3,d,e,50\n4,b,b,50\n")
-        self.write("n.toml", FILES + 'drop = ["self_loops", "islands"]\n'
-                   '[[condition]]\njunction = "a"\npressure = "20 mmHg"\n'
-                   '[[condition]]\nnearest = ["3 mm", "4 mm", "13 mm"]\nflow = "-1e-3 mL/min"\n')
-        result = self.run_well("n.toml", "-o", "out")
-        network = self.record("out")["results"]["network"]
-        self.assertEqual((network["vessels"], network["junctions"]), (2, 3))
-        self.assertAlmostEqual(network["inflow_m3_s"] / (1e-9 / 60), 1, delta=1e-12)
-        self.assertAlmostEqual(network["highest_pressure_Pa"], 20 * 133.322387415, delta=1e-6)
-        self.assertIn("condition[2] is at junction c", result.stdout)
-        for more, fragments in (
-                (["condition[1].junction=q"], ["condition[1].junction=q", "no junction of this id or name"]),
-                (["condition[2].haematocrit=45"], ["condition[2].haematocrit", "at most 0.95"]),
-                (["network.drop=['loops']"], ["network.drop", "self_loops"])):
-            result = self.rhexis("run", "n.toml", "--set", *more)
-            self.assert_refused(result, fragments, more[0], ["n.toml", "j.csv", "v.csv", "out"])
-
-    def test_flows_that_mean_little_are_told(self):
-        self.write("n.toml", FILES)
-        self.write("v.csv", VESSELS)
-        self.write("j.csv", JUNCTIONS)
-        self.assertIn("2 vessels, 3 junctions", self.rhexis("check", "n.toml").stdout)
-        for junctions, vessels, warning in (
-                (JUNCTIONS.replace("12,0", "12,"), VESSELS, "nothing flows: no difference"),
-                (JUNCTIONS, VESSELS.replace("50", "2").replace("40", "2").replace("[um]", "[mm]"), "the Reynolds number reaches"),
-                (JUNCTIONS, VESSELS.replace("[um]", "[mm]"), "an inflow of"),
-                (JUNCTIONS, VESSELS.replace("[um]", "[mm]"), str(self.path / "v.csv") + ":2: vessel 1, the first of 2: radius 50 mm"),
-                (JUNCTIONS.replace("12,0", "12,-20"), VESSELS, "the pressure falls to -20 mmHg"),
-                (JUNCTIONS.replace("12,0", "12,-1000"), VESSELS, "the pressure falls to -1000 mmHg, below vacuum"),
-                (JUNCTIONS, VESSELS, None)):
-            self.write("j.csv", junctions)
-            self.write("v.csv", vessels)
-            for more, ranks in (([], None), (["--set", "network.tier=distributed"], 2)):
-                result = self.run_well("n.toml", "-o", "out", *more, ranks=ranks)
-                record = self.record("out")
-                told = [w for w in record["warnings"] if warning and w.startswith(warning)]
-                self.assertEqual(len(told), 1 if warning else 0, record["warnings"])
-                self.assertTrue(warning or not record["warnings"], record["warnings"])
-                self.assertEqual(result.stderr.count("rhexis: warning: "), len(record["warnings"]), result.stderr)
-                if warning and "Reynolds" in warning:
-                    self.assertGreater(record["results"]["network"]["highest_reynolds"], 2300)
-
-    def test_a_page_about_a_network(self):
-        self.write("n.toml", FILES)
-        self.write("j.csv", JUNCTIONS + "d,0,0,1,\n")
-        self.write("v.csv", VESSELS.replace("2,b,c,40", "2,b,c,40\n3,b,d,30"))
-        pages = [self.rhexis("network", *files) for files in (("j.csv", "v.csv"), ("n.toml",))]
-        for page in pages:
-            self.assertEqual(page.returncode, 0, page.stderr)
-            for part in ("vessels     3", "junctions   4", "3 ends, 2 conditions", "no flow     in 1 of 3 vessels", "radii of the vessels", "####", "can be solved"):
-                self.assertIn(part, page.stdout)
-            self.assertIn("no condition, so that nothing flows there: d", page.stderr)
-        # What is written can be read again, gives the same flow, and is not written over another file.
-        self.assertEqual(self.rhexis("network", "j.csv", "v.csv", "-o", "clean.json").returncode, 0)
-        self.run_well("n.toml", "-o", "first")
-        self.run_well("n.toml", "--set", "network.files=['clean.json']", "-o", "again")
-        first, again = ((self.path / folder / "vessels.csv").read_text() for folder in ("first", "again"))
-        self.assertEqual(first, again)
-        for arguments, message in ((("j.csv", "v.csv", "-o", "clean.json"), "--overwrite"), (("clean.json", "-o", "clean.json", "--overwrite"), "is read from this file"),
-                                   (("j.csv", "v.csv", "-o", "clean.txt"), ".json or .vtp"), (("j.csv",), "two .csv files"), (("gone.json",), "gone.json"),
-                                   (("x.vtp",), "--length-unit mm")):
-            result = self.rhexis("network", *arguments)
-            self.assertEqual(result.returncode, 2, message)
-            self.assertIn(message, result.stderr)
-        self.assertEqual(self.rhexis("network", "j.csv", "v.csv", "-o", "clean.json", "--overwrite").returncode, 0)
-
-    def test_vtp_files_without_paraview_are_refused_at_once(self):
-        self.write("n.toml", TREE)
-        for command in ("check", "run"):
-            result = subprocess.run([RHEXIS, command, "n.toml", "--set", "network.vtp=true"], cwd=self.path, capture_output=True, text=True,
-                                    env={**os.environ, "RHEXIS_PLUGIN_DIR": "/none"}, timeout=60, check=False)
-            self.assert_refused(result, ["network.vtp=true", "ParaView"], command, ["n.toml"])
-
-    def test_restart_is_for_vessels(self):
-        self.write("n.toml", TREE)
-        self.assert_refused(self.rhexis("run", "n.toml", "--restart", "x.h5"), ["--restart"], "restart", ["n.toml"])
 
     def test_interrupt_is_recorded(self):
         self.write("n.toml", tree("generations", "generations = 33"))

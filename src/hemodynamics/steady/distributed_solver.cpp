@@ -13,6 +13,7 @@
 #include "hemodynamics/steady/flow_solver.hpp"
 #include "hemodynamics/steady/graph/distributed_flow.hpp"
 #include "hemodynamics/steady/graph/network_graph.hpp"
+#include "network/connectivity.hpp"
 #include "network/tree/tree_pair.hpp"
 #include "parallel/together.hpp"
 
@@ -116,8 +117,9 @@ class DistributedSolver final : public FlowSolver {
   /// Every rank reads the files, and keeps an even share of the vessels.
   void take_slice_of_file() {
     const network::BoundedGraph whole = make_graph_network(problem_, mechanics_.hydrostatic);
-    check_flow_problem(whole.graph, whole.conditions, problem_.blood.graph_solver);
-    if (comm_.is_root()) survey_ = network::survey_of(whole);
+    const std::vector<std::uint32_t> part = network::first_of_part(whole.graph);
+    check_flow_problem(whole.graph, whole.conditions, part, problem_.blood.graph_solver);
+    if (comm_.is_root()) survey_ = network::survey_of(whole, part);
     for (const std::string& name : problem_.network.query)
       queried_.push_back(find_vessel(problem_, whole.graph, name, "network.query"));
     const auto share = [&](int r) {

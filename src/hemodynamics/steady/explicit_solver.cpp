@@ -15,6 +15,7 @@
 #include "hemodynamics/steady/graph/haematocrit.hpp"
 #include "hemodynamics/steady/graph/network_graph.hpp"
 #include "hemodynamics/steady/ruptured_network.hpp"
+#include "network/connectivity.hpp"
 #include "network/tree/tree_pair.hpp"
 #include "parallel/together.hpp"
 
@@ -48,8 +49,9 @@ class ExplicitSolver final : public FlowSolver {
         network_ = make_graph_network(problem_, mechanics_.hydrostatic);
         // A tree is connected by its making.
         if (problem_.is_tree()) return;
-        check_flow_problem(network_.graph, network_.conditions, problem_.blood.graph_solver);
-        survey_ = network::survey_of(network_);
+        const std::vector<std::uint32_t> part = network::first_of_part(network_.graph);
+        check_flow_problem(network_.graph, network_.conditions, part, problem_.blood.graph_solver);
+        survey_ = network::survey_of(network_, part);
       });
       for (const std::string& name : problem_.network.query)
         queried_.push_back(find_vessel(problem_, network_.graph, name, "network.query"));
@@ -155,7 +157,7 @@ class ExplicitSolver final : public FlowSolver {
                       "(blood.phase_tolerance {:.1e})",
                       found.iterations, found.change, blood.phase_tolerance));
     }
-    s.flow.haematocrit_iterations = found.iterations;
+    if (found.converged) s.flow.haematocrit_iterations = found.iterations;
     haematocrit_ = std::move(found.haematocrit);
     return std::move(found.flow);
   }

@@ -32,16 +32,13 @@ void check_files(const FlowProblem& problem) {
   const network::Parameters& n = problem.network;
   if (!n.weakness.subtrees.empty())
     throw InputError("only a tree has subtrees; name the vessels", "weakness.subtrees");
-  network::NetworkFormat format = {};
-  check_key("network.files", [&] { format = network::format_of(n.files); });
+  check_key("network.files", [&] { network::format_of(n.files); });
   network::check(n.conditions);
+  network::check(n.wall_ranges);
   if (n.tier == network::Tier::implicit_tree) throw InputError("only a tree can be implicit", "network.tier");
   check_key("network.file_length_unit", [&] {
     if (!n.file_length_unit.empty()) problem.to_si("1 " + n.file_length_unit, "m");
-    if (n.file_length_unit.empty() && network::lacks_length_unit(format))
-      throw InputError(
-          "is needed: " + n.files.front() +
-          " cannot tell the unit of its lengths; write for example network.file_length_unit = \"mm\"");
+    network::check_length_unit(n, "write for example network.file_length_unit = \"mm\"");
   });
 }
 
@@ -77,6 +74,9 @@ std::vector<std::string> resolve(FlowProblem& problem) {
   if (!n.conditions.empty())
     throw InputError("the ends of a tree have flow.inlet_pressure, outlet_pressure and inlet_flow",
                      "condition[1].junction");
+  if (!n.wall_ranges.empty())
+    throw InputError("ranges are of networks from files; the walls of a tree are those of [wall]",
+                     "wall_range[1].radius_from");
   problem.tree = network::rules_from(n.tree, n.wall.artery, n.wall.vein);
   const TreeBoundary boundary = tree_boundary(problem.blood);
   check_tree(problem);

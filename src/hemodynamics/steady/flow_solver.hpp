@@ -27,7 +27,7 @@ struct VesselProperties {
   network::VesselKind kind = network::VesselKind::unknown;
   int generation = -1;                                ///< -1: unknown
   double radius = 0, length = 0, wall_thickness = 0;  ///< m
-  bool wall_is_given = false;                 ///< its thickness by the file; else by the rules of [wall]
+  bool wall_is_given = false;                 ///< its thickness by the file or [[wall_range]]; else by [wall]
   double strength_factor = 1;                 ///< on the critical stretch of its wall
   double flow = 0;                            ///< m3/s, along the vessel
   double pressure_from = 0, pressure_to = 0;  ///< Pa, at its ends, with the weight of blood
@@ -57,9 +57,10 @@ struct NetworkFlow {
   double highest_pressure = 0, lowest_pressure = 0;  ///< Pa, of all junctions
   double highest_reynolds = 0;                       ///< number, of all vessels (a tree's: of its two roots)
   std::string solver;
-  std::optional<std::int64_t> iterations, haematocrit_iterations;
-  std::optional<double> flop;  ///< operations, where they are counted
-  std::vector<double> leaks;   ///< m3/s, of FlowProblem::failures
+  std::optional<std::int64_t> iterations;
+  std::optional<std::int64_t> haematocrit_iterations;  ///< to the fixed point; none: it was not reached
+  std::optional<double> flop;                          ///< operations, where they are counted
+  std::vector<double> leaks;                           ///< m3/s, of FlowProblem::failures
 };
 
 /// What is stored and drawn of a network.

@@ -119,22 +119,18 @@ class Reader {
     const Column* column = find_column(columns, heading.name);
     if (column == nullptr || column->name == "id" || column->name == "from" || column->name == "to")
       return {};
-    if (column->unit.empty() || column->unit == "1") return {column, heading.unit == "%" ? 0.01 : 1.0};
-    std::string unit = heading.unit;
-    if (unit.empty() && column->unit == "m") {
-      unit = options_.length_unit;
-      builder_.use_length_unit();
-      if (unit.empty())
-        throw InputError(fmt::format(
-            "{}: attribute {} needs its unit: network.file_length_unit, or a name such as '{} [um]'", file_,
-            key.name, column->name));
-    }
-    if (unit.empty()) return {};
+    UnitOfColumn unit;
     try {
-      return {column, options_.to_si("1 " + unit, column->unit)};
+      unit = unit_of(*column, heading, options_.length_unit, options_.to_si);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: attribute {}: {}", file_, key.name, error.what()));
     }
+    if (unit.is_the_length_unit) builder_.use_length_unit();
+    if (unit.factor) return {column, *unit.factor};
+    if (column->unit != "m") return {};
+    throw InputError(
+        fmt::format("{}: attribute {} needs its unit: network.file_length_unit, or a name such as '{} [um]'",
+                    file_, key.name, column->name));
   }
 
   /// The element that has begun, with the values that its attributes have by default.

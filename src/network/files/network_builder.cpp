@@ -61,6 +61,12 @@ const Columns& vessel_columns() {
   return columns;
 }
 
+bool is_direction(std::string_view text) {
+  constexpr std::string_view directions[] = {"in",     "out",     "inlet",  "outlet",
+                                             "inflow", "outflow", "source", "sink"};
+  return std::ranges::find(directions, spelling(text)) != std::end(directions);
+}
+
 void NetworkBuilder::refuse(const std::string& where, const std::string& problem) {
   throw InputError(where + ": " + problem);
 }
@@ -122,6 +128,8 @@ void NetworkBuilder::add_condition(const JunctionRow& row, std::uint32_t junctio
                                    .value = row.pressure ? *row.pressure : *row.flow,
                                    .resistance = row.resistance.value_or(0),
                                    .haematocrit = row.haematocrit});
+  } else if (row.tells_direction) {
+    network_.directed_ends.push_back(junction);
   } else if (row.haematocrit) {
     idle_haematocrits_.push_back(row.id);
   }

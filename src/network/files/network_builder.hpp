@@ -20,10 +20,11 @@ namespace rhexis::network {
 
 /// One junction as read, in SI; what is not given is empty.
 struct JunctionRow {
-  std::string id, name;
-  std::optional<double> x, y, z;                     ///< m
-  std::optional<double> pressure, flow, resistance;  ///< Pa, m3/s (into the network), Pa s/m3
-  std::optional<double> haematocrit;                 ///< of the blood that enters, as a fraction
+  std::string id = {}, name = {};
+  std::optional<double> x = {}, y = {}, z = {};                     ///< m
+  std::optional<double> pressure = {}, flow = {}, resistance = {};  ///< Pa, m3/s (into the network), Pa s/m3
+  std::optional<double> haematocrit = {};  ///< of the blood that enters, as a fraction
+  bool tells_direction = false;            ///< whether blood flows in or out, in the place of how much
 };
 
 /// One vessel as read, in SI.
@@ -38,13 +39,28 @@ struct VesselRow {
 const Columns& junction_columns();
 const Columns& vessel_columns();
 
+/// Whether a text in the place of a flow is a direction: "in", "outlet" and the like.
+bool is_direction(std::string_view text);
+
 /// The row of a `record`, which has `std::string text(name)` and `std::optional<double> number(name)` for
 /// names of columns.
 template <class Record>
 JunctionRow junction_row(Record&& record) {
-  return {record.text("id"),     record.text("name"),         record.number("x"),
-          record.number("y"),    record.number("z"),          record.number("pressure"),
-          record.number("flow"), record.number("resistance"), record.number("haematocrit")};
+  JunctionRow row{.id = record.text("id"),
+                  .name = record.text("name"),
+                  .x = record.number("x"),
+                  .y = record.number("y"),
+                  .z = record.number("z"),
+                  .pressure = record.number("pressure"),
+                  .resistance = record.number("resistance"),
+                  .haematocrit = record.number("haematocrit")};
+  try {
+    row.flow = record.number("flow");
+  } catch (const InputError&) {
+    row.tells_direction = is_direction(record.text("flow"));
+    if (!row.tells_direction) throw;
+  }
+  return row;
 }
 
 template <class Record>

@@ -12,6 +12,7 @@
 #include "network/repair/drop.hpp"
 #include "network/repair/end_conditions.hpp"
 #include "network/repair/reference_pressure.hpp"
+#include "network/repair/wall_ranges.hpp"
 #include "network/survey/plausibility.hpp"
 
 namespace rhexis::network {
@@ -76,8 +77,12 @@ NetworkFormat format_of(const std::vector<std::string>& files) {
       "junctions, then vessels");
 }
 
-bool lacks_length_unit(NetworkFormat format) {
-  return format == NetworkFormat::vtp || format == NetworkFormat::swc;
+void check_length_unit(const Parameters& parameters, const std::string& remedy) {
+  const NetworkFormat format = format_of(parameters.files);
+  const bool can_tell = format != NetworkFormat::vtp && format != NetworkFormat::swc;
+  if (can_tell || !parameters.file_length_unit.empty()) return;
+  throw InputError("the unit of lengths is needed, which " + parameters.files.front() +
+                   " cannot tell: " + remedy);
 }
 
 BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
@@ -90,9 +95,11 @@ BoundedGraph read_network(const Parameters& parameters, const ToSi& to_si) {
                                                        .drops_self_loops = drops("self_loops")});
   if (network.file.empty()) network.file = parameters.files.back();
   set_end_conditions(parameters.conditions, network);
+  refuse_directed_ends(network);
   if (drops("islands")) drop_islands(network);
   if (drops("dead_ends")) drop_dead_ends(network);
   set_reference_pressure(parameters.reference_pressure, network);
+  set_wall_ranges(parameters.wall_ranges, network);
   Improbable found = improbable(network);
   network.warnings = std::move(found.warnings);
   network.notes.insert(network.notes.end(), found.notes.begin(), found.notes.end());

@@ -41,9 +41,9 @@ enum class NetworkFormat { csv, json, graphml, secomb, swc, vtp };
 /// By number and extensions (in any case) of the files. Throws InputError where they are no network's.
 NetworkFormat format_of(const std::vector<std::string>& files);
 
-/// Whether files of that format never tell the unit of their lengths, so that network.file_length_unit is
-/// needed.
-bool lacks_length_unit(NetworkFormat format);
+/// Throws InputError, which ends in `remedy`, where files of that format never tell the unit of their lengths
+/// and `parameters` do not either.
+void check_length_unit(const Parameters& parameters, const std::string& remedy);
 
 /// The network of `parameters.files`, as the solvers take it: read, then repaired as the keys of [network]
 /// ask for. The one way in from a user's files. Throws InputError.

@@ -8,7 +8,8 @@
 //     haematocrit; types 4 and 5 carry blood;
 //   - N total number of nodes, a heading, then N rows: name x y z (um);
 //   - N total number of boundary nodes, a heading, then N rows: node type value haematocrit; the value of
-//     type 0 is a pressure (mmHg), that of types 2 and 4 to 9 a flow into the network (nl/min).
+//     type 0 is a pressure (mmHg), that of types 2 and 4 to 9 a flow into the network (nl/min), the sign of
+//     type -2 tells the direction of a flow that is not known.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -146,19 +147,21 @@ class Reader {
     if (found == node_.end())
       throw InputError(fmt::format("{}: there is no node {}", where(line.number), id));
     JunctionRow& row = nodes_[found->second].row;
-    if (row.pressure || row.flow)
+    if (row.pressure || row.flow || row.tells_direction)
       throw InputError(fmt::format("{}: node {} is given twice", where(line.number), id));
     const double type = number(line, 1, "type"), value = number(line, 2, "value");
-    if (type != 0 && type != 2 && !(type >= 4 && type <= 9))
-      throw InputError(
-          fmt::format("{}: type = {}: must be 0 (a pressure in mmHg), or 2 or 4 to 9 (a flow in nl/min)",
-                      where(line.number), text(type)));
+    if (type != 0 && std::abs(type) != 2 && !(type >= 4 && type <= 9))
+      throw InputError(fmt::format(
+          "{}: type = {} of boundary node {}: must be 0 (a pressure in mmHg), 2 or 4 to 9 (a flow in nl/min)",
+          where(line.number), text(type), id));
     if (!used_.contains(found->first)) {
       if (unused_ends_++ == 0) first_unused_end_ = id;
       return;
     }
     if (type == 0)
       row.pressure = value * pascals_per_mmhg;
+    else if (type == -2)
+      row.tells_direction = true;
     else
       row.flow = value * nanolitre_per_minute;
     if (line.words.size() > 3) row.haematocrit = number(line, 3, "haematocrit");

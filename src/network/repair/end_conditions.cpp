@@ -2,7 +2,9 @@
 #include "network/repair/end_conditions.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -145,6 +147,23 @@ void set_end_conditions(const std::vector<EndCondition>& conditions, BoundedGrap
     }
     if (given.haematocrit) condition.haematocrit = given.haematocrit;
   }
+}
+
+void refuse_directed_ends(BoundedGraph& network) {
+  std::erase_if(network.directed_ends, [&](std::uint32_t j) {
+    return std::ranges::find(network.conditions, j, &BoundaryCondition::junction) != network.conditions.end();
+  });
+  const std::size_t count = network.directed_ends.size();
+  if (count == 0) return;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(count, 12); ++i)
+    names.push_back(network.graph.name_of_junction(network.directed_ends[i]));
+  throw InputError(
+      fmt::format("{}: only the direction of the flow is told at {} end{}: {}{}. Directions settle no flow: "
+                  "each of these "
+                  "ends needs a pressure or the amount of the flow, in the file or by [[condition]]",
+                  network.file, count, count == 1 ? "" : "s", fmt::join(names, ", "),
+                  count > names.size() ? fmt::format(" and {} more", count - names.size()) : ""));
 }
 
 }  // namespace rhexis::network

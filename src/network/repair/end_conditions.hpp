@@ -30,4 +30,8 @@ void check(const std::vector<EndCondition>& conditions);
 /// with the key at fault where there is no such junction, or two are given for one.
 void set_end_conditions(const std::vector<EndCondition>& conditions, BoundedGraph& network);
 
+/// Throws InputError with the ends of which the file tells only the direction of the flow, and which no
+/// condition has been given since. Thereafter none of them is told.
+void refuse_directed_ends(BoundedGraph& network);
+
 }  // namespace rhexis::network

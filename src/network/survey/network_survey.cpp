@@ -84,7 +84,7 @@ MeasureRange range_of(const Graph& g, const std::vector<double>& measure) {
 
 }  // namespace
 
-NetworkSurvey survey_of(const BoundedGraph& network) {
+NetworkSurvey survey_of(const BoundedGraph& network, const std::vector<std::uint32_t>& part) {
   const Graph& g = network.graph;
   NetworkSurvey s;
   s.vessels = g.vessels();
@@ -92,7 +92,6 @@ NetworkSurvey survey_of(const BoundedGraph& network) {
   s.conditions = network.conditions.size();
   s.notes = network.notes;
   s.warnings = network.warnings;
-  const std::vector<std::uint32_t> part = first_of_part(g);
   const std::vector<PartConditions> of_part = conditions_of_parts(network, part);
   survey_junctions(s, network, part, of_part);
   survey_vessels(s, network, part, of_part);

@@ -53,7 +53,7 @@ struct NetworkSurvey {
   std::size_t without_flow() const { return dead_ends.count + vessels_without_way; }
 };
 
-/// Takes O(J + V).
-NetworkSurvey survey_of(const BoundedGraph& network);
+/// `part`: [J] as of first_of_part. Takes O(J + V).
+NetworkSurvey survey_of(const BoundedGraph& network, const std::vector<std::uint32_t>& part);
 
 }  // namespace rhexis::network

@@ -12,6 +12,7 @@
 #include "core/format.hpp"
 #include "hemodynamics/steady/graph/graph_flow.hpp"
 #include "input/units.hpp"
+#include "network/connectivity.hpp"
 #include "network/files/network_file.hpp"
 #include "network/files/network_writer.hpp"
 #include "network/survey/network_survey.hpp"
@@ -77,7 +78,8 @@ void print_radii(runtime::Console& console, const std::vector<double>& radius) {
 }
 
 void print_page(const network::BoundedGraph& network, const network::Parameters& parameters) {
-  const network::NetworkSurvey survey = network::survey_of(network);
+  const std::vector<std::uint32_t> part = network::first_of_part(network.graph);
+  const network::NetworkSurvey survey = network::survey_of(network, part);
   runtime::Console console(true, false);
   console.line(fmt::format("Network {}", fmt::join(parameters.files, ", ")));
   console.item("vessels", grouped(static_cast<long long>(survey.vessels)));
@@ -86,7 +88,7 @@ void print_page(const network::BoundedGraph& network, const network::Parameters&
   print_radii(console, network.graph.radius);
   for (const std::string& warning : network::survey_warnings(survey)) console.warning(warning);
   try {
-    hemodynamics::check_flow_problem(network.graph, network.conditions);
+    hemodynamics::check_flow_problem(network.graph, network.conditions, part);
     console.item("flow",
                  "can be solved: rhexis run, with a scene of model \"network\" that names these files");
   } catch (const InputError& error) {
@@ -100,10 +102,7 @@ void print_network_page(const network::Parameters& parameters, const CleanFile& 
                         parallel::Communicator comm) {
   network::BoundedGraph network;
   parallel::on_root<InputError>(comm, [&] {
-    if (parameters.file_length_unit.empty() &&
-        network::lacks_length_unit(network::format_of(parameters.files)))
-      throw InputError(parameters.files.front() +
-                       " cannot tell the unit of its lengths: add, for example, --length-unit mm");
+    network::check_length_unit(parameters, "add, for example, --length-unit mm");
     check_clean_file(clean, parameters);
     network = network::read_network(parameters, input::to_si);
     if (clean.path.extension() == ".vtp") network::check_fits_vtp(network, clean.path);

@@ -274,7 +274,7 @@ TEST_F(ForeignNetworks, SecombsFilesAreRefusedWithTheLine) {
       {changed("12\t4\t2\t3", "12\t4\t2\t9"), {"network.dat:10", "to = 9"}},
       {changed("11 5 1 2 8.0", "11 5 1 2 wide"), {"network.dat:9", "diameter = wide"}},
       {changed("11 5 1 2 8.0 0.0 0.4", "11 5 1 2"), {"network.dat:9", "4 words"}},
-      {changed("1 0 40.", "1 3 40."), {"network.dat:20", "type = 3", "4 to 9"}},
+      {changed("1 0 40.", "1 3 40."), {"network.dat:20", "type = 3 of boundary node 1", "4 to 9"}},
       {changed("1 0 40.", "3 0 40."), {"network.dat:21", "node 3 is given twice"}},
       {changed("1 0 40. 0.45", "9 0 40. 45"), {"network.dat:20", "no node 9"}},
       {changed("1 0 40. 0.45", "1 0 40. 45"), {"network.dat:14", "haematocrit of junction 1 is 45"}},
@@ -283,6 +283,30 @@ TEST_F(ForeignNetworks, SecombsFilesAreRefusedWithTheLine) {
   };
   for (const auto& [text, fragments] : mistakes)
     refused([&, t = text] { network({{"network.dat", t}}); }, fragments);
+}
+
+TEST_F(ForeignNetworks, DirectionsOfFlowAreNoConditions) {
+  const std::string known_ends = secomb.substr(0, secomb.rfind("1 0 40."));
+  const Files dat{{"network.dat", known_ends + "1 -2 1. 0.45\n3 -2 -1.\n4 2 1 0.4\n"}};
+  const std::string vessels = "id,from,to,radius [um],length [um]\n1,a,b,5,100\n";
+  const Files csv{{"j.csv", "id,flow [mL/min]\na,Inlet\nb,out\n"}, {"v.csv", vessels}};
+  const Files json{
+      {"n.json",
+       R"({"units": {"length": "um", "flow": "mL/min"}, "junctions": [{"id": "a", "flow": "in"}, {"id": "b", "flow": 0.5}],
+           "vessels": [{"id": 1, "from": "a", "to": "b", "radius": 5, "length": 100}]})"}};
+  refused([&] { network(dat); }, {"network.dat: only the direction", "at 2 ends: 1, 3.", "[[condition]]"});
+  refused([&] { network(csv); }, {"v.csv: only the direction", "at 2 ends: a, b.", "[[condition]]"});
+  refused([&] { network(json); }, {"n.json: only the direction", "at 1 end: a."});
+  refused(
+      [&] {
+        network({{"j.csv", "id,flow [mL/min]\na,much\nb,1\n"}, {"v.csv", vessels}});
+      },
+      {"j.csv:2: flow = much: not a finite number"});
+  Parameters p;
+  p.conditions = {{.junction = "1", .pressure = 4000}};
+  refused([&] { network(dat, p); }, {"at 1 end: 3."});
+  p.conditions.push_back({.junction = "3", .flow = -1e-13});
+  EXPECT_EQ(network(dat, p).conditions.size(), 2u);
 }
 
 const std::string graphml_head =

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "network/connectivity.hpp"
 #include "network/survey/survey_text.hpp"
 #include "networks.hpp"
 
@@ -37,6 +38,10 @@ BoundedGraph bifurcation(std::vector<BoundaryCondition> conditions) {
   return network;
 }
 
+NetworkSurvey survey(const BoundedGraph& network) {
+  return survey_of(network, first_of_part(network.graph));
+}
+
 std::string all_lines(const NetworkSurvey& survey) {
   std::string all;
   for (const auto& [label, text] : survey_lines(survey)) all += label + ": " + text + "\n";
@@ -46,7 +51,7 @@ std::string all_lines(const NetworkSurvey& survey) {
 }  // namespace
 
 TEST(NetworkSurvey, AForgottenOutletIsNamed) {
-  const NetworkSurvey s = survey_of(bifurcation({pressure(0, 100), pressure(2, 90)}));
+  const NetworkSurvey s = survey(bifurcation({pressure(0, 100), pressure(2, 90)}));
   EXPECT_EQ(s.vessels, 3u);
   EXPECT_EQ(s.parts, 1u);
   EXPECT_EQ(s.loops, 0u);
@@ -60,7 +65,7 @@ TEST(NetworkSurvey, AForgottenOutletIsNamed) {
 }
 
 TEST(NetworkSurvey, NothingIsWrongWhereEveryEndHasACondition) {
-  const NetworkSurvey s = survey_of(bifurcation({pressure(0, 100), pressure(2, 90), inflow(3, 0)}));
+  const NetworkSurvey s = survey(bifurcation({pressure(0, 100), pressure(2, 90), inflow(3, 0)}));
   EXPECT_EQ(s.open_ends.count, 0u);
   EXPECT_EQ(s.dead_ends.names, (Names{"b2"}));  // closed by a flow of zero, as the user has asked
   EXPECT_EQ(survey_warnings(s), Names{});
@@ -70,7 +75,7 @@ TEST(NetworkSurvey, RangesExtentAndWalls) {
   BoundedGraph network = bifurcation({pressure(0, 100), pressure(2, 90)});
   network.graph.wall_thickness = {1e-4, 0, 0};
   network.notes = {"two points were merged"};
-  const NetworkSurvey s = survey_of(network);
+  const NetworkSurvey s = survey(network);
   EXPECT_EQ(s.radius.least, 1.5e-3);
   EXPECT_EQ(s.radius.least_vessel, "b1");
   EXPECT_EQ(s.radius.largest_vessel, "t");
@@ -91,7 +96,7 @@ TEST(NetworkSurvey, PartsAndWhyNothingFlowsInThem) {
                        {pressure(0, 1), inflow(1, -1), pressure(3, 0)}};
   network.graph.radius = network.graph.length = {1e-3, 1e-3, 1e-3};
   network.graph.junction_name = {"a", "b", "c", "d", "e", "f", "g"};
-  const NetworkSurvey s = survey_of(network);
+  const NetworkSurvey s = survey(network);
   EXPECT_EQ(s.parts, 3u);
   EXPECT_EQ(s.loops, 0u);
   EXPECT_EQ(s.isolated.names, (Names{"g"}));
@@ -110,7 +115,7 @@ TEST(NetworkSurvey, NamesAtMostFiveAndCountsTheRest) {
   for (std::uint32_t j = 3; j < 103; ++j) vessels.emplace_back(1, j);
   BoundedGraph network{networks::graph(103, vessels), {pressure(0, 1), pressure(2, 0)}};
   network.graph.radius = network.graph.length = std::vector<double>(102, 1e-3);
-  const NetworkSurvey s = survey_of(network);
+  const NetworkSurvey s = survey(network);
   EXPECT_EQ(s.dead_ends.count, 100u);
   EXPECT_EQ(list_of(s.open_ends), "3, 4, 5, 6, 7 and 95 more");
 }

@@ -71,10 +71,9 @@ Boundary sort_conditions(const network::Graph& graph, std::span<const network::B
 }
 
 std::vector<bool> junctions_with_vessels(const network::Graph& graph) {
+  const std::vector<std::uint32_t> degree = network::degrees(graph);
   std::vector<bool> connected(graph.junctions);
-  for (const auto* ends : {&graph.from, &graph.to}) {
-    for (const std::uint32_t j : *ends) connected[j] = true;
-  }
+  for (std::size_t j = 0; j < connected.size(); ++j) connected[j] = degree[j] > 0;
   return connected;
 }
 

@@ -42,7 +42,7 @@ using NameOfJunction = std::function<std::string(std::size_t)>;
 Boundary sort_conditions(const network::Graph& graph, std::span<const network::BoundaryCondition> conditions,
                          const NameOfJunction& name);
 
-/// [J]
+/// [J] whether a junction is the end of a vessel.
 std::vector<bool> junctions_with_vessels(const network::Graph& graph);
 
 /// The first junction of the component of `junction`, by name.

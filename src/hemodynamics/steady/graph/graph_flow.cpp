@@ -109,10 +109,9 @@ Boundary checked_boundary(const network::Graph& graph, std::span<const network::
 }  // namespace
 
 void check_flow_problem(const network::Graph& graph, std::span<const network::BoundaryCondition> conditions,
-                        const GraphSolverOptions& options) {
+                        std::span<const std::uint32_t> part, const GraphSolverOptions& options) {
   const std::vector<bool> connected = junctions_with_vessels(graph);
   const Boundary boundary = checked_boundary(graph, conditions, connected);
-  const std::vector<std::uint32_t> part = network::first_of_part(graph);
   std::vector<bool> held(graph.junctions);
   for (const auto& fixed : boundary.fixed) held[part[fixed.junction]] = true;
   for (const auto& ghost : boundary.ghosts) held[part[ghost.junction]] = true;

@@ -44,9 +44,9 @@ struct GraphFlow {
 };
 
 /// Throws the InputError that `solve_flow` would throw of conditions, components and solver, without solving
-/// anything.
+/// anything. `part`: [J] as of network::first_of_part.
 void check_flow_problem(const network::Graph& graph, std::span<const network::BoundaryCondition> conditions,
-                        const GraphSolverOptions& options = {});
+                        std::span<const std::uint32_t> part, const GraphSolverOptions& options = {});
 
 /// Pressures and flows for conductances [V] in m3/(s Pa). `conductance` is consumed (its memory is reused).
 /// 1. Series, parallel and dead-end vessels are removed exactly (reduction.hpp); trees and series-parallel

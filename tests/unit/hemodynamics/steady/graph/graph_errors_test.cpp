@@ -92,8 +92,9 @@ TEST(GraphErrors, EliminationOfWhatItCannotSolve) {
                           {.solver = GraphSolver::elimination}),
                "leaves 2 junctions");
   const Conditions ends{pressure(0, 1), pressure(3, 0)};
-  EXPECT_THROW(check_flow_problem(graph, ends, {.solver = GraphSolver::elimination}), InputError);
-  check_flow_problem(graph, ends);
+  const std::vector<std::uint32_t> part(4);
+  EXPECT_THROW(check_flow_problem(graph, ends, part, {.solver = GraphSolver::elimination}), InputError);
+  check_flow_problem(graph, ends, part);
 }
 
 TEST(GraphErrors, ImbalanceNotReached) {
