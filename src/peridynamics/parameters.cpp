@@ -161,6 +161,13 @@ ParameterList declare(Parameters& p) {
        .meaning = "Repeat the table, as heart beats do: it begins at 0, its last time is the period, and its "
                   "first and last pressure agree.",
        .only_with = {when("load.schedule", Schedule::table)}},
+      {.key = "load.direction",
+       .target = &p.direction,
+       .meaning = "follower: a blood pressure, which acts on the deformed lumen, on its area and along its "
+                  "normals, and no "
+                  "longer where the wall is torn. dead: the paper's, which keeps the undeformed lumen's area "
+                  "and directions.",
+       .source = "Eq. (8)"},
       {.key = "load.layer",
        .target = &p.layer,
        .meaning = "Body force of the pressure in the innermost layer of the wall: nonlocal (distributed as "

@@ -61,6 +61,14 @@ constexpr auto name_table(LayerForce) {
       {{nonlocal, "nonlocal"}, {consistent, "consistent"}, {paper, "paper"}});
 }
 
+/// Whether the pressure acts on the deformed lumen (loads/lumen_surface.hpp) or on the undeformed one.
+enum class LoadDirection { follower, dead };
+
+constexpr auto name_table(LoadDirection) {
+  using enum LoadDirection;
+  return std::to_array<Named<LoadDirection>>({{follower, "follower"}, {dead, "dead"}});
+}
+
 /// What becomes of the load after rupture.
 enum class Venting { none, orifice };
 
@@ -85,9 +93,9 @@ struct Parameters {
   std::optional<std::int64_t> particles;
   std::optional<double> horizon;  ///< m
   double horizon_ratio = 3.5;     ///< horizon / spacing where `horizon` is "auto"
-  std::vector<double> lattice_shift{0.5,
-                                    0.5};  ///< offset of the nearest column from the axis, in spacings: along x and along y
-  double rotation = 0;                     ///< rad
+  std::vector<double> lattice_shift{
+      0.5, 0.5};        ///< offset of the nearest column from the axis, in spacings: along x and along y
+  double rotation = 0;  ///< rad
   Precision bond_precision = Precision::single_precision;
 
   EndCondition ends = EndCondition::clamped;
@@ -103,6 +111,7 @@ struct Parameters {
   std::vector<CurvePoint> table;    ///< (s, Pa)
   std::string table_file;           ///< where the table comes from; empty: the input itself
   bool repeat = false;              ///< the table, again and again
+  LoadDirection direction = LoadDirection::dead;
   LayerForce layer = LayerForce::nonlocal;
   std::optional<double> layer_thickness;  ///< m
   Venting venting = Venting::orifice;

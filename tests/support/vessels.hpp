@@ -38,6 +38,7 @@ inline peridynamics::Parameters paper_vessel(double length = 2e-3) {
   p.ends = peridynamics::EndCondition::clamped;
   p.pressure = 238e3;
   p.schedule = peridynamics::Schedule::ramp;
+  p.direction = peridynamics::LoadDirection::dead;
   p.layer = peridynamics::LayerForce::paper;
   p.venting = peridynamics::Venting::none;
   p.end_time = 2.25e-3;

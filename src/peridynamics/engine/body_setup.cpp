@@ -12,7 +12,12 @@ namespace rhexis::peridynamics {
 
 BodySetup make_setup(const Parameters& p, Lattice lattice, SharedFamilies families, double time_step) {
   BodySetup setup;
+  setup.inner_radius = p.inner_radius;
   setup.layer = make_pressure_layer(p, lattice);
+  if (p.direction == LoadDirection::follower) {
+    setup.lumen = make_lumen_surface(p, lattice, setup.layer);
+    setup.layer = undeformed_load(setup.lumen, lattice);
+  }
   setup.lattice = std::move(lattice);
   setup.families = std::move(families);
   setup.ends = p.ends;

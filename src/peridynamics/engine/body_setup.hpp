@@ -7,6 +7,7 @@
 
 #include "peridynamics/bonds/bond_family.hpp"
 #include "peridynamics/geometry/heterogeneity.hpp"
+#include "peridynamics/loads/lumen_surface.hpp"
 #include "peridynamics/loads/thin_spots.hpp"
 
 namespace rhexis::peridynamics {
@@ -14,7 +15,9 @@ namespace rhexis::peridynamics {
 struct BodySetup {
   Lattice lattice;
   SharedFamilies families;
-  PressureLayer layer;
+  double inner_radius = 0;  ///< m
+  PressureLayer layer;      ///< the load on the undeformed wall
+  LumenSurface lumen = {};  ///< where the load follows the wall; none: it is dead
   EndCondition ends = EndCondition::free;
   double end_length = 0;  ///< m held at each end
   double density = 0;     ///< kg/m3

@@ -19,6 +19,8 @@ BodySize body_size(const Parameters& p, const WallSize& wall, double rows, int r
           .bonds = wall.bonds,
           .halo_columns = ranks * halo,
           .ranks = ranks,
+          .lumen_nodes =
+              p.direction == LoadDirection::follower ? 2 * std::numbers::pi * p.inner_radius / *p.spacing : 0,
           .heterogeneous = !Heterogeneity(p).uniform(),
           .thinned = p.spots.thin_the_wall()};
 }

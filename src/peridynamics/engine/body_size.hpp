@@ -16,6 +16,7 @@ struct BodySize {
   double bonds = 0;              ///< bonds in the families of owned columns
   double halo_columns = 0;
   int ranks = 1;
+  double lumen_nodes = 0;  ///< of the surface on which a pressure that follows the wall acts; 0: it is dead
   bool heterogeneous = false;  ///< critical stretch or stiffness differs from place to place
   bool thinned = false;        ///< thin spots leave out particles
 

@@ -120,9 +120,18 @@ class BondStorage {
   }
 
   /// Marks a block whose bonds broke; threads may mark different blocks at once.
-  void mark_changed(RowBlock b) { changed_[domain_->number(b)] = 1; }
+  void mark_changed(RowBlock b) { changed_[domain_->number(b)] = for_damage | for_load; }
   /// Whether the block was marked since the last call, or since the start.
-  bool take_changed(RowBlock b) { return std::exchange(changed_[domain_->number(b)], char{0}) != 0; }
+  bool take_changed(RowBlock b) { return take(b, for_damage); }
+  /// The same, for those who ask for `rows_without_bonds`.
+  bool take_loosened(RowBlock b) { return take(b, for_load); }
+
+  /// Rows of a block whose particles have no intact bond, one bit each.
+  std::uint16_t rows_without_bonds(RowBlock b) const {
+    unsigned held = 0;
+    for (std::size_t bond = 0; bond < count(b.slot); ++bond) held |= words(b)[bond];
+    return static_cast<std::uint16_t>(~held & 0xffffu);
+  }
 
   /// Directed bonds of owned particles: those that existed at first, and those that are intact.
   std::int64_t initial_count() const { return initial_count_; }
@@ -152,7 +161,7 @@ class BondStorage {
   }
 
   void restore(std::span<const std::uint16_t> saved) {
-    std::ranges::fill(changed_, char{1});
+    std::ranges::fill(changed_, char{for_damage | for_load});
     auto word = saved.begin();
     each_saved_place([&](std::size_t place) {
       intact_count_ += std::popcount(*word) - std::popcount(intact_[place]);
@@ -161,6 +170,15 @@ class BondStorage {
   }
 
  private:
+  /// Who has not yet asked whether a block changed.
+  static constexpr char for_damage = 1, for_load = 2;
+  bool take(RowBlock b, char who) {
+    char& changed = changed_[domain_->number(b)];
+    const bool was = (changed & who) != 0;
+    changed = static_cast<char>(changed & ~who);
+    return was;
+  }
+
   std::size_t first_word(RowBlock b) const {
     return static_cast<std::size_t>(first_bond(b.slot) * domain_->blocks()) +
            static_cast<std::size_t>(b.block) * count(b.slot);
@@ -211,7 +229,7 @@ class BondStorage {
     const ColumnLayout& layout = domain_->layout();
     family_volume_.resize(static_cast<std::size_t>(layout.local_count()));
     intact_.resize(constants_.size() * static_cast<std::size_t>(domain_->blocks()));
-    changed_.resize(static_cast<std::size_t>(layout.column_count * domain_->blocks()), 1);
+    changed_.resize(static_cast<std::size_t>(layout.column_count * domain_->blocks()), for_damage | for_load);
     for (std::int32_t slot = 0; slot < layout.column_count; ++slot) {
       for (std::int32_t block = 0; block < domain_->blocks(); ++block) {
         const RowBlock b{slot, block};
@@ -261,7 +279,7 @@ class BondStorage {
                                         ///< where the bond is not forward
   std::vector<std::uint16_t> intact_;
   std::vector<double> family_volume_;  ///< [owned particles] sum of V_j / spacing^3 of the initial bonds
-  std::vector<char> changed_;          ///< [blocks]
+  std::vector<char> changed_;          ///< [blocks] for_damage, for_load
   std::int64_t initial_count_ = 0, intact_count_ = 0;
 };
 

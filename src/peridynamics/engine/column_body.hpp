@@ -2,10 +2,11 @@
 /// The one implementation of Body: an extruded tube of columns, with bond laws.
 ///
 /// Its parts: which particles are here (Domain), properties by place (PlaceProperties), bonds (BondStorage),
-/// the displacement that bonds read (BondDisplacement), the pressure (PressureLoad), forces by subdomains of
-/// threads (BondForces), a state-based law's dilatations (Dilatation), energies (FractureEnergy,
-/// WorkAccount). What is left here is the state, and its course: a step in time (column_body_step.hpp),
-/// observation (column_body_observe.hpp), and restarts (column_body_restart.hpp).
+/// the displacement that bonds read (BondDisplacement), the pressure (PressureLoad, and FollowerPressure
+/// where it follows the wall), forces by subdomains of threads (BondForces), a state-based law's dilatations
+/// (Dilatation), energies (FractureEnergy, WorkAccount). What is left here is the state, and its course: a
+/// step in time (column_body_step.hpp), observation (column_body_observe.hpp), and restarts
+/// (column_body_restart.hpp).
 #pragma once
 
 #include <algorithm>
@@ -20,6 +21,7 @@
 #include "peridynamics/engine/bond_forces.hpp"
 #include "peridynamics/engine/dilatation.hpp"
 #include "peridynamics/engine/energy_account.hpp"
+#include "peridynamics/engine/follower_pressure.hpp"
 #include "peridynamics/engine/pressure_load.hpp"
 
 namespace rhexis::peridynamics {
@@ -48,6 +50,7 @@ class ColumnBody final : public Body {
         units_(setup_.lattice, setup_.bond_constant),
         load_(setup_, domain_, comm),
         properties_(setup_, domain_, threads_),
+        follower_(setup_, domain_, threads_),
         bonds_(domain_, *setup_.families, units_, properties_),
         displacement_(domain_, setup_.lattice.spacing),
         halo_(comm, domain_.halo_messages(), 3),
@@ -69,8 +72,8 @@ class ColumnBody final : public Body {
   static double bytes(const BodySize& size) {
     const double dilatation = Law::state_based ? Dilatation<Law, Real>::bytes(size) : 0;
     return 6 * size.particles() * sizeof(double) + Domain::bytes(size) + PressureLoad::bytes(size) +
-           PlaceProperties<Real>::bytes(size) + BondStorage<Real>::bytes(size) +
-           BondDisplacement<Real>::bytes(size) + Subdomain::bytes(size) +
+           FollowerPressure<Real>::bytes(size) + PlaceProperties<Real>::bytes(size) +
+           BondStorage<Real>::bytes(size) + BondDisplacement<Real>::bytes(size) + Subdomain::bytes(size) +
            FractureEnergy<Law, Real>::bytes(size) + dilatation;
   }
 
@@ -152,9 +155,11 @@ class ColumnBody final : public Body {
   void prepare_forces(std::vector<ThreadEvents>& per_thread);
   void look_for_rupture(ThreadEvents& events) const;
   void push_column(const Subdomain& s, std::int32_t slot, const StepLoad& load, ExactSum& work);
+  void push_deformed_column(const Subdomain& s, std::int32_t slot, const StepLoad& load, ExactSum& work);
   void move_column(const Subdomain& s, std::int32_t slot, const StepLoad& load, ThreadEvents& events);
   void observe_block(const Subdomain& s, RowBlock b, double pressure, double kick, ObservedSums& sums);
   double observe_motion(const Subdomain& s, RowBlock b, double pressure, double kick);
+  double work_of_half_step(RowBlock b, double pressure);
 
   BodySetup setup_;
   parallel::Communicator comm_;
@@ -164,6 +169,7 @@ class ColumnBody final : public Body {
   KernelUnits units_;
   PressureLoad load_;
   PlaceProperties<Real> properties_;
+  FollowerPressure<Real> follower_;
   BondStorage<Real> bonds_;
   BondDisplacement<Real> displacement_;
   parallel::HaloExchange<Real> halo_;  ///< exchanges displacement_
@@ -203,7 +209,7 @@ Domain ColumnBody<Law, Real>::checked_domain(const BodySetup& setup, const paral
                                 .halo_columns = cut.columns,
                                 .halo_rows = static_cast<double>(setup.families->reach)});
   Domain domain(setup.lattice, *setup.families, partition, comm.rank(),
-                setup.ends == EndCondition::axial_periodic);
+                setup.ends == EndCondition::axial_periodic, setup.lumen);
   // Offsets between particles are 32-bit numbers in the kernel's tables.
   if (comm.all_reduce(static_cast<std::int64_t>(domain.padded_size()), parallel::Reduce::max) > INT32_MAX)
     throw InputError("the body is too large for " + std::to_string(comm.size()) + " rank(s); use more");

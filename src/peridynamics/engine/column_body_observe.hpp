@@ -32,16 +32,20 @@ template <class Law, class Real>
 double ColumnBody<Law, Real>::observe_motion(const Subdomain& s, RowBlock b, double pressure, double kick) {
   const std::size_t column = domain_.global_column(b.slot);
   const double force_unit = units_.force_density(column);
-  const double load[3] = {pressure * setup_.layer.bx[column], pressure * setup_.layer.by[column], 0.0};
-  double space[block_rows];
-  const double* const share = load_.shares(b, space);
+  const double dead[3] = {setup_.layer.bx[column], setup_.layer.by[column], 0.0};
+  const bool is_dead = follower_.none() || !setup_.layer.loads(column);
+  double loads[3][block_rows], space[block_rows];
+  for (int k = 0; k < 3; ++k) std::fill_n(loads[k], block_rows, dead[k]);
+  if (!is_dead) follower_.load(b, bonds_, loads);
+  const double* const share = is_dead ? load_.shares(b, space) : load_.profile(b);
   const std::size_t first = domain_.first_particle(b);
   double speed2 = 0;
   for (int k = 0; k < 3; ++k) {
     const auto [first_free, past_free] = free_lanes(b, k);
     const Real* const sums = s.sums(static_cast<std::size_t>(k), b.slot, b.block * block_rows);
     for (int lane = 0; lane < domain_.rows_in(b.block); ++lane) {
-      const double force = force_unit * static_cast<double>(sums[lane]) + share[lane] * load[k];
+      const double force =
+          force_unit * static_cast<double>(sums[lane]) + share[lane] * (pressure * loads[k][lane]);
       const bool moves = lane >= first_free && lane < past_free;
       const double v = v_[k][first + lane] + (moves ? kick * force / setup_.density : 0.0);
       observation_.force_density[k][first + lane] = force;
@@ -50,6 +54,24 @@ double ColumnBody<Law, Real>::observe_motion(const Subdomain& s, RowBlock b, dou
     }
   }
   return speed2;
+}
+
+/// Work (J) of a pressure that follows the wall on half of the path before the present moment, which the next
+/// step will add to the account (push_deformed_column).
+template <class Law, class Real>
+double ColumnBody<Law, Real>::work_of_half_step(RowBlock b, double pressure) {
+  const std::size_t column = domain_.global_column(b.slot);
+  if (follower_.none() || !setup_.layer.loads(column) || first_kick_pending_) return 0;
+  double loads[3][block_rows];
+  const double* const share = load_.profile(b);
+  follower_.load(b, bonds_, loads);
+  double power = 0;
+  for (int k = 0; k < 3; ++k) {
+    const auto [first, past] = free_lanes(b, k);
+    const double* const v = v_[k].data() + domain_.first_particle(b);
+    for (int lane = first; lane < past; ++lane) power += share[lane] * loads[k][lane] * v[lane];
+  }
+  return 0.5 * pressure * setup_.time_step * setup_.lattice.volume(column) * power;
 }
 
 /// Fills the observed fields of a block and adds to the sums.
@@ -89,6 +111,7 @@ void ColumnBody<Law, Real>::observe_block(const Subdomain& s, RowBlock b, double
   }
   sums.kinetic.add(0.5 * setup_.density * particle_volume * speed2);
   sums.strain.add(particle_volume * strain);
+  sums.half_step_work.add(work_of_half_step(b, pressure));
   if (const double fracture = fracture_.of(b); fracture > 0) sums.fracture.add(fracture);
 }
 
@@ -123,7 +146,7 @@ Totals ColumnBody<Law, Real>::totals() const {
   totals.strain = observed_.strain.value(comm_);
   totals.fracture = observed_.fracture.value(comm_);
   if constexpr (Law::state_based) totals.fracture += work_.released(comm_);
-  totals.external_work = work_.work(comm_);
+  totals.external_work = work_.work(comm_) + observed_.half_step_work.value(comm_);
   totals.lost = work_.lost();
   totals.max_displacement = max_displacement();
   totals.max_damage = comm_.all_reduce(observed_.max_damage, parallel::Reduce::max);

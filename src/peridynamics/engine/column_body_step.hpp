@@ -31,7 +31,8 @@ void ColumnBody<Law, Real>::look_for_rupture(ThreadEvents& events) const {
   events.broken_blocks.clear();
 }
 
-/// Makes what forces need: a frame that follows the body, the halo, and a state-based law's dilatations.
+/// Makes what forces need: a frame that follows the body, the halo, a state-based law's dilatations, and the
+/// deformed lumen.
 template <class Law, class Real>
 void ColumnBody<Law, Real>::prepare_forces(std::vector<ThreadEvents>& per_thread) {
   if (steps_ % frame_interval == 0) displacement_.follow(u_, comm_);
@@ -43,6 +44,7 @@ void ColumnBody<Law, Real>::prepare_forces(std::vector<ThreadEvents>& per_thread
     halo_.start(u);
     halo_.finish(u);
   }
+  if (!follower_.none()) follower_.find_forces({u[0], u[1], u[2]});
 }
 
 /// The sum of 16 numbers, in an order that compilers find vectors in.
@@ -81,6 +83,38 @@ void ColumnBody<Law, Real>::push_column(const Subdomain& s, std::int32_t slot, c
   }
 }
 
+/// The same for a pressure that follows the wall. Its work over a step is the mean of the loads at both ends
+/// times the path between them: a load works on half of the path before it and half of the path after it.
+template <class Law, class Real>
+void ColumnBody<Law, Real>::push_deformed_column(const Subdomain& s, std::int32_t slot, const StepLoad& load,
+                                                 ExactSum& work) {
+  const double kick = load.kick * load.pressure / setup_.density;
+  const double path_work =
+      0.5 * load.pressure * setup_.time_step * setup_.lattice.volume(domain_.global_column(slot));
+  const double bond_kick = load.kick * (units_.force_density(domain_.global_column(slot)) / setup_.density);
+  const double path_before = first_kick_pending_ ? 0 : 1;
+  for (std::int32_t block = s.first_block(); block < s.past_block(); ++block) {
+    const RowBlock b{slot, block};
+    double loads[3][block_rows];
+    const double* __restrict share = load_.profile(b);
+    follower_.load(b, bonds_, loads);
+    double power[block_rows] = {};  // of the load of each row, per volume
+    for (int k = 0; k < 3; ++k) {
+      const auto [first, past] = free_lanes(b, k);
+      const Real* __restrict sums = s.sums(static_cast<std::size_t>(k), slot, block * block_rows);
+      double* __restrict v = v_[k].data() + domain_.first_particle(b);
+      for (int lane = first; lane < past; ++lane) {
+        const double force = share[lane] * loads[k][lane];
+        const double v_before =
+            v[lane] - bond_kick * static_cast<double>(sums[lane]);  // bonds have pulled already
+        v[lane] += kick * force;
+        power[lane] += force * (path_before * v_before + v[lane]);
+      }
+    }
+    work.add(path_work * sum_of_rows(power));
+  }
+}
+
 /// Moves a subdomain's rows of a column from t_n to t_{n+1}, under the load and the forces that the subdomain
 /// has summed.
 template <class Law, class Real>
@@ -99,7 +133,12 @@ void ColumnBody<Law, Real>::move_column(const Subdomain& s, std::int32_t slot, c
     double* __restrict v = v_[k].data() + first_particle;
     for (std::int64_t row = first; row < past; ++row) v[row] += bond_kick * static_cast<double>(force[row]);
   }
-  if (setup_.layer.loads(column)) push_column(s, slot, load, events.work);
+  if (setup_.layer.loads(column)) {
+    if (follower_.none())
+      push_column(s, slot, load, events.work);
+    else
+      push_deformed_column(s, slot, load, events.work);
+  }
   for (int k = 0; k < 3; ++k) {
     const auto [first, past] = local_free_rows(s.first_row, s.past_row, k);
     double* __restrict u = u_[k].data() + first_particle;
@@ -117,7 +156,8 @@ void ColumnBody<Law, Real>::move_column(const Subdomain& s, std::int32_t slot, c
 
 template <class Law, class Real>
 StepEvents ColumnBody<Law, Real>::advance(double pressure, double next_pressure) {
-  load_speed_ += setup_.time_step * std::abs(pressure) * load_.largest() / setup_.density;
+  load_speed_ +=
+      setup_.time_step * std::abs(pressure) * load_.largest() * follower_.largest_growth() / setup_.density;
   const StepLoad load{.pressure = pressure,
                       .work_pressure = 0.5 * (pressure + next_pressure),
                       .kick = first_kick_pending_ ? 0.5 * setup_.time_step : setup_.time_step,

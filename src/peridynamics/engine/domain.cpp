@@ -16,11 +16,31 @@ std::uint16_t bit_range(std::int64_t low, std::int64_t high) {
   return low >= high ? std::uint16_t{0} : static_cast<std::uint16_t>(((1u << (high - low)) - 1u) << low);
 }
 
+/// For each column the columns near its nodes of the lumen and near the neighbours of these, of which a
+/// pressure that follows the wall makes the column's load; empty where it is dead.
+std::vector<std::vector<std::int32_t>> columns_beside(const LumenSurface& lumen, std::size_t columns) {
+  std::vector<std::vector<std::int32_t>> beside(lumen.none() ? 0 : columns);
+  for (std::int32_t t = 0; t < lumen.size(); ++t) {
+    for (const LumenSurface::Member& here : lumen.of(t)) {
+      for (const std::int32_t node : {lumen.previous(t), t, lumen.next(t)}) {
+        for (const LumenSurface::Member& there : lumen.of(node))
+          beside[static_cast<std::size_t>(here.column)].push_back(there.column);
+      }
+    }
+  }
+  return beside;
+}
+
 }  // namespace
 
 Domain::Domain(const Lattice& lattice, const BondFamilies& families, const parallel::Partition& partition,
-               int rank, bool periodic)
-    : families_(&families), partition_(partition), rank_(rank), periodic_(periodic), reach_(families.reach) {
+               int rank, bool periodic, const LumenSurface& lumen)
+    : families_(&families),
+      beside_(columns_beside(lumen, lattice.section.size())),
+      partition_(partition),
+      rank_(rank),
+      periodic_(periodic),
+      reach_(families.reach) {
   layout_.columns = static_cast<std::int64_t>(lattice.section.size());
   layout_.rows = lattice.rows;
   layout_.first_column = partition.first_column(rank);
@@ -79,6 +99,11 @@ std::vector<std::int32_t> Domain::halo_columns(int rank) const {
   for (std::int64_t b = families_->first[first]; b < families_->first[past]; ++b) {
     const std::int32_t other = families_->bonds[b].other;
     if (other < first || other >= past) columns.push_back(other);
+  }
+  for (std::int64_t c = first; !beside_.empty() && c < past; ++c) {
+    for (const std::int32_t other : beside_[static_cast<std::size_t>(c)]) {
+      if (other < first || other >= past) columns.push_back(other);
+    }
   }
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());

@@ -13,6 +13,7 @@
 #include "peridynamics/bonds/bond_family.hpp"
 #include "peridynamics/engine/body_size.hpp"
 #include "peridynamics/engine/column_layout.hpp"
+#include "peridynamics/loads/lumen_surface.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -31,7 +32,7 @@ struct RowBlock {
 class Domain {
  public:
   Domain(const Lattice& lattice, const BondFamilies& families, const parallel::Partition& partition, int rank,
-         bool periodic);
+         bool periodic, const LumenSurface& lumen = {});
 
   /// Memory of the ranks' domains, and of the cross-section and the layer that each rank holds.
   static double bytes(const BodySize& size) { return 100 * size.columns * size.ranks; }
@@ -89,6 +90,8 @@ class Domain {
   std::vector<Needed> needed_by(int rank) const;
 
   const BondFamilies* families_;
+  std::vector<std::vector<std::int32_t>>
+      beside_;  ///< columns that the load on a column depends on; none: dead
   parallel::Partition partition_;
   int rank_;
   bool periodic_;

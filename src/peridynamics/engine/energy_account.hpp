@@ -20,9 +20,10 @@ using parallel::ExactSum;
 /// What a thread gathers while it observes; in cache lines of its own, which are fetched in pairs.
 struct alignas(128) ObservedSums {
   explicit ObservedSums(double energy_scale)
-      : kinetic(energy_scale), strain(energy_scale), fracture(energy_scale) {}
+      : kinetic(energy_scale), strain(energy_scale), fracture(energy_scale), half_step_work(energy_scale) {}
 
   ExactSum kinetic, strain, fracture;  ///< J
+  ExactSum half_step_work;             ///< J, that the account of work does not hold yet
   double max_damage = 0;
   std::int64_t ruptured_first = INT64_MAX, ruptured_last = -1;  ///< rows of the whole body
 
@@ -30,6 +31,7 @@ struct alignas(128) ObservedSums {
     kinetic.add(other.kinetic);
     strain.add(other.strain);
     fracture.add(other.fracture);
+    half_step_work.add(other.half_step_work);
     max_damage = std::max(max_damage, other.max_damage);
     ruptured_first = std::min(ruptured_first, other.ruptured_first);
     ruptured_last = std::max(ruptured_last, other.ruptured_last);

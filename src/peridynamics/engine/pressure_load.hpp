@@ -41,9 +41,14 @@ class PressureLoad {
   /// `profile`: [rows of the whole body], the pressure there relative to the one that steps are given.
   void set_profile(std::vector<double> profile) { profile_ = std::move(profile); }
 
+  /// The pressure at a block's rows relative to the one that steps are given.
+  const double* profile(RowBlock b) const {
+    return profile_.data() + domain_->layout().first_row + b.block * block_rows;
+  }
+
   /// The load of a block's rows relative to the layer's; may be put into `space`.
   const double* shares(RowBlock b, double (&space)[block_rows]) const {
-    const double* const profile = profile_.data() + domain_->layout().first_row + b.block * block_rows;
+    const double* const profile = this->profile(b);
     if (share_.empty()) return profile;
     const double* const own = share_.data() + domain_->first_particle(b);
     for (int lane = 0; lane < domain_->rows_in(b.block); ++lane) space[lane] = profile[lane] * own[lane];
