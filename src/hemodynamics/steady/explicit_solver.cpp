@@ -154,8 +154,8 @@ class ExplicitSolver final : public FlowSolver {
     if (!found.converged) {
       s.warnings.push_back(
           fmt::format("haematocrits have not converged in {} iterations: they still change by {:.1e} "
-                      "(blood.phase_tolerance {:.1e})",
-                      found.iterations, found.change, blood.phase_tolerance));
+                      "(blood.phase_tolerance {:.1e}), by {:.1e} in the mean weighted by flow",
+                      found.iterations, found.change, blood.phase_tolerance, found.mean_change));
     }
     if (found.converged) s.flow.haematocrit_iterations = found.iterations;
     haematocrit_ = std::move(found.haematocrit);

@@ -152,14 +152,18 @@ HaematocritFlow find_haematocrit(const network::Graph& graph, const FlowOfHaemat
     result.haematocrit =
         carried_haematocrit(graph, result.flow, options.inflow_haematocrit, options.entering);
     result.change = 0;
+    double moving = 0, changing = 0;
     for (std::size_t v = 0; v < used.size(); ++v) {
       const double change = result.haematocrit[v] - used[v];
       result.change = std::max(result.change, std::abs(change));
+      moving += std::abs(result.flow.flow[v]);
+      changing += std::abs(result.flow.flow[v] * change);
       const bool oscillates = change * before[v] < 0 && std::abs(change) > 0.5 * std::abs(before[v]);
       step[v] = oscillates ? std::max(smallest_step, shrinks * step[v]) : std::min(1.0, grows * step[v]);
       before[v] = change;
       used[v] += step[v] * change;
     }
+    result.mean_change = moving > 0 ? changing / moving : 0;
     result.converged = result.change <= options.tolerance;
     if (result.converged) break;
   }

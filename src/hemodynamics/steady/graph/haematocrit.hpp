@@ -30,7 +30,8 @@ struct HaematocritFlow {
   GraphFlow flow;
   std::vector<double> haematocrit;  ///< [V] discharge haematocrit; of a vessel without flow the inflow's
   std::int64_t iterations = 0;
-  double change = 0;  ///< last one
+  double change = 0;       ///< last one, the largest of all vessels
+  double mean_change = 0;  ///< last one, the mean over all vessels weighted by their flows
   bool converged = false;
 };
 

@@ -113,6 +113,8 @@ TEST(Haematocrit, NotConvergingIsReportedAndCellsAreConservedAllTheSame) {
   EXPECT_FALSE(r.converged);
   EXPECT_EQ(r.iterations, 2);
   EXPECT_GT(r.change, options.tolerance);
+  EXPECT_GT(r.mean_change, 0);
+  EXPECT_LE(r.mean_change, r.change);
   EXPECT_LT(worst_imbalance(p, r), 1e-13);
 }
 
