@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The picture of a vascular network: arteries and veins beside the pressures in them, as in the paper's Fig. 6(a).
 
-Used by network.py while the program runs and by postprocessing/render_network.py on saved files.
+Used by network.py while the program runs and by postprocessing/render_network.py on saved files; network_page.py draws
+other views of it.
 The camera is derived from the network's box: a flat network is seen face on, others from obliquely above; the views
 are in parallel projection, side by side, or one above the other if that shows the network much larger. Vessels have
 their true radii, but for those that would be too thin to be seen: the picture says how thin they may get.
@@ -79,7 +80,8 @@ def camera(corners):
 class Framing:
     """Where a network's points come to lie in the views, in pixels; chosen once, so that frames can be compared."""
 
-    def __init__(self, start, end, radius):
+    def __init__(self, start, end, radius, layouts):
+        """`layouts`: of which the first is taken, unless another one shows the network much larger."""
         self.axes = numpy.array(camera(numpy.concatenate([start, end])))
         start, end = start @ self.axes.T, end @ self.axes.T
         thickness = radius[:, None]
@@ -90,7 +92,10 @@ class Framing:
         def scale(layout):
             return min((numpy.array(layout[0][0][2:]) - 2 * MARGIN) / size)
 
-        self.layout = STACKED if scale(STACKED) > 1.2 * scale(SIDE_BY_SIDE) else SIDE_BY_SIDE
+        self.layout = layouts[0]
+        for layout in layouts[1:]:
+            if scale(layout) > 1.2 * scale(self.layout):
+                self.layout = layout
         self.pixels_per_m = scale(self.layout)
         self.width, self.height = self.layout[0][0][2:]
         self.box = size * self.pixels_per_m
@@ -111,6 +116,8 @@ class Framing:
 class NetworkPicture:
     """Two views of the same vessels: by kind (or, where no kind is known, by flow), and by pressure."""
 
+    layouts = [SIDE_BY_SIDE, STACKED]
+
     def __init__(self):
         self.window = self.framing = None  # of the first rank
         self.pressure_range = (math.inf, -math.inf)
@@ -130,7 +137,7 @@ class NetworkPicture:
             raise ValueError("the network has no vessels to draw")
         start, end, radius = table[:, :3].astype(float), table[:, 3:6].astype(float), table[:, 6].astype(float)
         if self.framing is None:
-            self.framing = Framing(start, end, radius)
+            self.framing = Framing(start, end, radius, self.layouts)
             self._make_window()
         start, end, true = self.framing.project(start), self.framing.project(end), radius * self.framing.pixels_per_m
         least = self.framing.least_radius(start, end, true)
@@ -138,14 +145,18 @@ class NetworkPicture:
         self.sheet.clear()
         # A coupled network is drawn as it was solved; what its wall does to it is told of the vessel alone.
         self.coupled = field_value(network, "chosen_start_x") is not None
-        self._draw_kind_or_flow(mesh, table[:, 7].astype(int), numpy.abs(table[:, 8].astype(float)))
-        self._draw_pressure(mesh, table[:, 9:11] / MMHG)
+        self.draw_views(network, mesh, table)
         self._write_title(network, len(table), time_s)
         self._mark_chosen(network)
         note = "radii: true" + (f", at least {least:g} px" if true.min() < least else "")
         self.sheet.scale_bar(MARGIN, 22, self.framing.pixels_per_m, about=110)
         self.sheet.text(WIDTH - MARGIN, 10, note, align="right")
         return self._render()
+
+    def draw_views(self, network, mesh, table):
+        """What is in the views and below them; `table`: the rows of all ranks, as of `vessels_of`."""
+        self._draw_kind_or_flow(mesh, table[:, 7].astype(int), numpy.abs(table[:, 8].astype(float)))
+        self._draw_pressure(mesh, table[:, 9:11] / MMHG)
 
     def _draw_kind_or_flow(self, mesh, kind, flow):
         _, (left, y, width) = self.framing.layout[0]
@@ -158,13 +169,13 @@ class NetworkPicture:
             table = colours(VIRIDIS[::-1], "RGB")
             table.SetRange(low, high)
             logarithm = numpy.log10(numpy.maximum(flow / unit, steps[0]))
-            self._show(0, mesh.surface(logarithm[mesh.vessel].astype(numpy.float32)), table)
+            self.show(0, mesh.surface(logarithm[mesh.vessel].astype(numpy.float32)), table)
             ticks = [((math.log10(step) - low) / (high - low), f"{step:g}") for step in written]
             self.sheet.colour_bar(left, y, width, table, f"flow / ({name})", ticks)
             return
         shades = numpy.rint(255 * numpy.array([shade for _, shade in KINDS])).astype(numpy.uint8)
         kind = numpy.clip(kind, 0, UNKNOWN)
-        self._show(0, mesh.surface(shades[kind[mesh.vessel]]), None)
+        self.show(0, mesh.surface(shades[kind[mesh.vessel]]), None)
         entries = [entry for number, entry in enumerate(KINDS) if (kind == number).any()]
         self.sheet.key(left + 0.5 * width, y, entries)
 
@@ -177,12 +188,12 @@ class NetworkPicture:
         table = colours(VIRIDIS, "RGB")
         table.SetNanColor(*KINDS[UNKNOWN][1], 1.0)
         if low > high:  # no pressure is known
-            self._show(1, mesh.surface(numpy.full(mesh.vessel.shape, math.nan, numpy.float32)), table)
+            self.show(1, mesh.surface(numpy.full(mesh.vessel.shape, math.nan, numpy.float32)), table)
             self.sheet.key(left + 0.5 * width, y, [("pressure unknown", KINDS[UNKNOWN][1])])
             return
         ticks = even_ticks(low, high, about=width // 65)
         table.SetRange(ticks[0], ticks[-1])
-        self._show(1, mesh.surface(pressure[mesh.vessel, mesh.at_end].astype(numpy.float32)), table)
+        self.show(1, mesh.surface(pressure[mesh.vessel, mesh.at_end].astype(numpy.float32)), table)
         places = [((tick - ticks[0]) / (ticks[-1] - ticks[0]), f"{tick:g}") for tick in ticks]
         name = "pressure (wall intact) / mmHg" if self.coupled else "pressure / mmHg"
         self.sheet.colour_bar(left, y, width, table, name, places)
@@ -228,7 +239,7 @@ class NetworkPicture:
         self.window.AddRenderer(view)
         return view
 
-    def _show(self, number, surface, table):
+    def show(self, number, surface, table):
         mapper = vtkPolyDataMapper()
         mapper.SetInputData(surface)
         if table is not None:

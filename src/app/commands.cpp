@@ -190,7 +190,11 @@ Command parse_command_line(int argc, char** argv, parallel::Communicator comm) {
       ->add_option("-o,--output", command.directory,
                    "Write the network as read and repaired, in SI: a .json or .vtp file")
       ->check(a_name);
-  network->add_flag("--overwrite", command.overwrite, "Replace that file");
+  network
+      ->add_option("--picture", command.picture,
+                   "Draw the vessels in the colours of their radii, and the ends: a .png file")
+      ->check(a_name);
+  network->add_flag("--overwrite", command.overwrite, "Replace these files");
   keys->add_option("SECTION", command.section, "One section, or one key (section.key)");
 
   try {
@@ -252,7 +256,8 @@ int carry_out(const Command& command, parallel::Communicator comm) {
     return told(comm);
   }
   if (command.action == Action::network) {
-    scenes::print_network_page(named_network(command, comm), {command.directory, command.overwrite}, comm);
+    scenes::print_network_page(named_network(command, comm),
+                               {command.directory, command.picture, command.overwrite}, comm);
     return told(comm);
   }
   const runtime::Ending ending = run(command, comm);

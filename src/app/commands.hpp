@@ -18,6 +18,7 @@ struct Command {
   std::string file;
   std::vector<std::string> network_files;  ///< of `rhexis network`: a scene, or the files of a network
   std::string length_unit;                 ///< the argument of --length-unit
+  std::string picture;                     ///< the argument of --picture
   std::vector<std::string> overrides;      ///< the arguments of --set, each "key=value"
   std::string directory;  ///< the argument of -o; empty: results/ and the name of the input file
                           ///< (of `rhexis network`, which writes a file there: nothing)

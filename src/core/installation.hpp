@@ -34,4 +34,9 @@ inline std::filesystem::path installation_prefix() {
   return prefix.empty() ? std::filesystem::path(configured_prefix) : prefix;
 }
 
+/// The folder of Rhexis's own Catalyst scripts.
+inline std::filesystem::path own_catalyst_scripts() {
+  return installation_prefix() / data_folder / "catalyst_scripts";
+}
+
 }  // namespace rhexis

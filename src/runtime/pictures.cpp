@@ -29,17 +29,13 @@ insitu::Settings settings_for(const PicturesPlan& plan) {
   return settings;
 }
 
-fs::path own_scripts() {
-  return installation_prefix() / data_folder / "catalyst_scripts";
-}
-
 bool is_package(const fs::path& path) {
   return fs::exists(path / "__init__.py");
 }
 
 /// The script that a plain name, e.g. "vessel", stands for.
 fs::path own_script(const std::string& name) {
-  const fs::path folder = own_scripts();
+  const fs::path folder = own_catalyst_scripts();
   std::vector<std::string> known;
   for (const char* script : {"coupled", "network", "template", "vessel"})
     if (fs::exists(folder / (std::string(script) + ".py"))) known.emplace_back(script);

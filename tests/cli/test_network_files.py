@@ -5,10 +5,14 @@ Run by ctest as: test_network_files.py RHEXIS SOURCE_DIR MPIRUN...
 """
 
 import os
+import subprocess
 import sys
 import unittest
+import unittest.mock
 
-from network_case import FILES, JUNCTIONS, SOURCE, VESSELS, NetworkCase
+from network_case import FILES, JUNCTIONS, RHEXIS, SOURCE, VESSELS, NetworkCase
+
+PICTURES = "Catalyst" in subprocess.run([RHEXIS, "--version"], capture_output=True, text=True, check=True).stdout
 
 # name, junctions, vessels, message
 WRONG_FILES = [
@@ -135,6 +139,54 @@ class NetworkFiles(NetworkCase):
             self.assertEqual(result.returncode, 2, message)
             self.assertIn(message, result.stderr)
         self.assertEqual(self.rhexis("network", "j.csv", "v.csv", "-o", "clean.json", "--overwrite").returncode, 0)
+
+    @unittest.skipUnless(PICTURES, "built without ParaView")
+    def test_a_picture_of_a_network(self):
+        import numpy
+        from matplotlib import image
+
+        self.write("j.csv", JUNCTIONS + "d,0,9,9,\n")
+        self.write("v.csv", VESSELS.replace("1,a,b,50", "1,a,b,900") + "3,b,d,100\n")
+        for name, ranks in (("one.png", None), ("two.png", 2)):
+            result = self.rhexis("network", "j.csv", "v.csv", "--picture", name, ranks=ranks)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        one, two = ((self.path / name).read_bytes() for name in ("one.png", "two.png"))
+        self.assertTrue(one == two, "the picture is another one on two ranks")
+        picture = numpy.rint(255 * image.imread(self.path / "one.png")[..., :3]).astype(int)
+        self.assertEqual(picture.shape, (720, 1280, 3))
+
+        def pixels(colour):
+            return (numpy.abs(picture[100:600] - colour) <= 3).all(axis=-1).sum()
+
+        # Above the legends: the end without a condition and the two with one, as marks of 9 x 9 pixels.
+        self.assertGreater(pixels((230, 76, 0)), 60)
+        self.assertLess(pixels((230, 76, 0)), 100)
+        # The widest vessel has the dark end of the scale, the thinnest its yellow one.
+        violet = (picture[100:600, :, 2] > picture[100:600, :, 1] + 30).sum()
+        yellow = (picture[100:600, :, 1] > picture[100:600, :, 2] + 60).sum()
+        self.assertGreater(violet, 5000)
+        self.assertGreater(yellow, 100)
+        self.assertLess(yellow, violet)
+        self.assertEqual(sorted(os.listdir(self.path)), ["j.csv", "one.png", "two.png", "v.csv"])
+
+    def test_pictures_that_cannot_be_are_refused(self):
+        self.write("j.csv", JUNCTIONS)
+        self.write("v.csv", VESSELS)
+        self.write("k.csv", "id,pressure [mmHg]\na,10\nb,\nc,0\n")
+        self.write("w.csv", "id,from,to,radius [um],length [mm]\n1,a,b,50,5\n2,b,c,40,12\n")
+        files = ["j.csv", "v.csv", "k.csv", "w.csv"]
+        mistakes = [("p.jpg", "must end in .png"), ("nowhere/p.png", "there is no folder")]
+        for name, message in mistakes:
+            self.assert_refused(self.rhexis("network", "j.csv", "v.csv", "--picture", name), [name, message], name, files)
+        with unittest.mock.patch.dict(os.environ, {"RHEXIS_PLUGIN_DIR": "/none"}):
+            result = self.rhexis("network", "j.csv", "v.csv", "--picture", "p.png", ranks=2)
+        self.assert_refused(result, ["--picture: there can be no picture"], "no plugin", files)
+        if PICTURES:
+            result = self.rhexis("network", "k.csv", "w.csv", "--picture", "p.png")
+            self.assert_refused(result, ["--picture: the junctions have no coordinates"], "no coordinates", files)
+        self.write("p.png", "")
+        result = self.rhexis("network", "j.csv", "v.csv", "--picture", "p.png")
+        self.assert_refused(result, ["p.png: there is such a file", "--overwrite"], "in the way", [*files, "p.png"])
 
 
 if __name__ == "__main__":

@@ -21,25 +21,35 @@
 #include "output/temporary_file.hpp"
 #include "parallel/together.hpp"
 #include "runtime/console.hpp"
+#include "scenes/network/network_page_picture.hpp"
 
 namespace rhexis::scenes {
 namespace {
 
-/// Throws InputError where the file is of another kind, there already, or one that is read.
-void check_clean_file(const CleanFile& clean, const network::Parameters& parameters) {
-  if (clean.path.empty()) return;
-  const std::string extension = clean.path.extension().string(), name = clean.path.string();
-  if (extension != ".json" && extension != ".vtp")
-    throw InputError(name + ": the file to write must end in .json or .vtp");
-  for (const std::string& file : parameters.files) {
-    std::error_code ignored;
-    if (std::filesystem::equivalent(file, clean.path, ignored))
-      throw InputError(name + ": the network is read from this file; write another");
-  }
+/// Throws InputError where a file to write is there already, or one that is read, or has no folder.
+void check_obstacles(const std::filesystem::path& path, const PageFiles& files,
+                     const network::Parameters& parameters) {
   std::error_code ignored;
-  if (!clean.overwrite &&
-      std::filesystem::symlink_status(clean.path, ignored).type() != std::filesystem::file_type::not_found)
-    throw InputError(name + ": there is such a file; --overwrite replaces it");
+  for (const std::string& file : parameters.files)
+    if (std::filesystem::equivalent(file, path, ignored))
+      throw InputError(path.string() + ": the network is read from this file; write another");
+  const std::filesystem::path folder = std::filesystem::absolute(path).parent_path();
+  if (!std::filesystem::is_directory(folder, ignored))
+    throw InputError(path.string() + ": there is no folder " + folder.string());
+  if (!files.overwrite &&
+      std::filesystem::symlink_status(path, ignored).type() != std::filesystem::file_type::not_found)
+    throw InputError(path.string() + ": there is such a file; --overwrite replaces it");
+}
+
+/// Throws InputError where a file to write is of another kind, or is in the way.
+void check_files(const PageFiles& files, const network::Parameters& parameters) {
+  const std::filesystem::path kind = files.clean.extension();
+  if (!files.clean.empty() && kind != ".json" && kind != ".vtp")
+    throw InputError(files.clean.string() + ": the file to write must end in .json or .vtp");
+  if (!files.picture.empty() && files.picture.extension() != ".png")
+    throw InputError(files.picture.string() + ": the picture must end in .png");
+  for (const std::filesystem::path* path : {&files.clean, &files.picture})
+    if (!path->empty()) check_obstacles(*path, files, parameters);
 }
 
 void write(const network::BoundedGraph& network, const std::filesystem::path& path) {
@@ -98,22 +108,30 @@ void print_page(const network::BoundedGraph& network, const network::Parameters&
 
 }  // namespace
 
-void print_network_page(const network::Parameters& parameters, const CleanFile& clean,
+void print_network_page(const network::Parameters& parameters, const PageFiles& files,
                         parallel::Communicator comm) {
   network::BoundedGraph network;
   parallel::on_root<InputError>(comm, [&] {
     network::check_length_unit(parameters, "add, for example, --length-unit mm");
-    check_clean_file(clean, parameters);
+    check_files(files, parameters);
+  });
+  if (!files.picture.empty()) check_picture_can_be_drawn(comm);
+  parallel::on_root<InputError>(comm, [&] {
     network = network::read_network(parameters, input::to_si);
-    if (clean.path.extension() == ".vtp") network::check_fits_vtp(network, clean.path);
+    if (files.clean.extension() == ".vtp") network::check_fits_vtp(network, files.clean);
+    if (!files.picture.empty() && network.graph.x.empty())
+      throw InputError("--picture: the junctions have no coordinates: there is nothing to draw");
     print_page(network, parameters);
   });
-  if (clean.path.empty()) return;
-  parallel::on_root<RunError>(comm, [&] {
-    write(network, clean.path);
-    runtime::Console(true, false)
-        .item("written", fmt::format("{} (in SI: network.file_length_unit = \"m\")", clean.path.string()));
-  });
+  runtime::Console console(comm.is_root(), false);
+  if (!files.clean.empty()) {
+    parallel::on_root<RunError>(comm, [&] { write(network, files.clean); });
+    console.item("written",
+                 fmt::format("{} (in SI: network.file_length_unit = \"m\")", files.clean.string()));
+  }
+  if (files.picture.empty()) return;
+  draw_network_page(network, files.picture, comm);
+  console.item("picture", files.picture.string());
 }
 
 }  // namespace rhexis::scenes
