@@ -97,9 +97,9 @@ class Body {
   /// done. Collective.
   virtual StepEvents advance(double pressure, double next_pressure) = 0;
 
-  /// Breaks the bonds that are due at the present time and sums forces and energies; the next `observe` or
-  /// `advance` at this time uses them. Collective.
-  virtual void find_forces() = 0;
+  /// Breaks the bonds that are due at the present time and sums forces and energies under `pressure` (Pa);
+  /// the next `observe` or `advance` at this time uses them. Collective.
+  virtual void find_forces(double pressure) = 0;
   /// Breaks the bonds that are due at the present time and evaluates all fields under `pressure` (Pa).
   /// Collective. The reference stays valid until the next call.
   virtual const Observation& observe(double pressure) = 0;

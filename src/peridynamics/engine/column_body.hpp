@@ -116,7 +116,7 @@ class ColumnBody final : public Body {
     load_.set_profile(std::move(shares));
   }
   StepEvents advance(double pressure, double next_pressure) override;
-  void find_forces() override;
+  void find_forces(double pressure) override;
   const Observation& observe(double pressure) override;
   Totals totals() const override;
   double max_displacement() const override;

@@ -9,7 +9,7 @@
 namespace rhexis::peridynamics {
 
 template <class Law, class Real>
-void ColumnBody<Law, Real>::find_forces() {
+void ColumnBody<Law, Real>::find_forces(double /*pressure*/) {
   if (std::exchange(forces_known_, true)) return;
   std::vector<ThreadEvents> per_thread = make_events();
   prepare_forces(per_thread);
@@ -124,7 +124,7 @@ const Observation& ColumnBody<Law, Real>::observe(double pressure) {
   observation_.strain_energy_density.resize(particles());
   observation_.damage.resize(particles());
 
-  find_forces();
+  find_forces(pressure);
   const double kick = first_kick_pending_ ? 0.0 : 0.5 * setup_.time_step;
   std::vector<ObservedSums> per_thread(static_cast<std::size_t>(threads_), ObservedSums(setup_.energy_scale));
   for_each_subdomain([&](const Subdomain& s, std::size_t thread) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "peridynamics/engine/general_setup.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace rhexis::peridynamics {
+namespace {
+
+/// Moves particles to the nearest multiples of `place_step` spacings from the first one; the surface stays.
+void snap(ParticleSet& set) {
+  const double step = place_step * set.spacing;
+  const Vector3 origin = set.at(0);
+  std::vector<Vector3> moved(set.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const double place = origin[k] + step * std::round((set.position[k][i] - origin[k]) / step);
+      moved[i][k] = place - set.position[k][i];
+      set.position[k][i] = place;
+    }
+  }
+  for (SurfacePatch& patch : set.surface) {
+    for (std::size_t k = 0; k < 3; ++k) patch.offset[k] -= moved[patch.particle][k];
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const GeneralGeometry> make_geometry(const ParticleSet& set, double horizon,
+                                                     std::vector<std::size_t>* order, const Separation* cut) {
+  std::vector<std::size_t> sorted = local_order(set, horizon);
+  ParticleSet particles = reordered(set, sorted);
+  snap(particles);
+  if (order != nullptr) *order = std::move(sorted);
+  Neighbours neighbours = find_neighbours(particles, horizon, cut);
+  GradientWeights gradient = find_gradient_weights(particles, neighbours, horizon);
+  if (!(gradient.imbalance < 1e-3))
+    throw InputError(
+        fmt::format("a homogeneous stress would push particles inside the body, with {:.2g} of the "
+                    "force on the surface of a spacing: its surface is not closed, or particles "
+                    "lie too unevenly",
+                    gradient.imbalance));
+  return std::make_shared<const GeneralGeometry>(
+      GeneralGeometry{std::move(particles), std::move(neighbours), std::move(gradient), horizon});
+}
+
+}  // namespace rhexis::peridynamics
