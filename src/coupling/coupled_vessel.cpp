@@ -18,6 +18,13 @@
 
 namespace rhexis::coupling {
 
+void set_radius(hemodynamics::NetworkVessel& vessel, RadiusOf which) {
+  if (!vessel.sections || which == RadiusOf::mean) return;
+  const hemodynamics::VesselSection& section = (*vessel.sections)[which == RadiusOf::narrowest ? 0 : 1];
+  vessel.radius = section.radius;
+  vessel.wall_thickness = section.wall_thickness;
+}
+
 CoupledVessel::CoupledVessel(const Parameters& p, const hemodynamics::FlowProblem& problem,
                              double discharge_coefficient, const hemodynamics::FlowSolver& solver,
                              const hemodynamics::NetworkDisplay& display, hemodynamics::NetworkVessel vessel,

@@ -47,6 +47,10 @@ struct ExchangeState {
   std::int64_t windows = 0;
 };
 
+/// Gives a vessel whose radius varies along it the radius that its straight wall is to have, with the
+/// thickness of the wall there.
+void set_radius(hemodynamics::NetworkVessel& vessel, RadiusOf which);
+
 class CoupledVessel {
  public:
   /// The vessel `vessel` of a network that `solver` has solved, and the load on it while it is intact;

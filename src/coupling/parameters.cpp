@@ -33,6 +33,10 @@ ParameterList declare(Parameters& p) {
                   "leaves fewer than 4 spacings across the wall, only the middle piece that so many "
                   "particles fill at 5 across.",
        .source = "Sec. 3.3"},
+      {.key = "coupling.radius_of",
+       .target = &p.radius_of,
+       .meaning = "Which radius a wall has whose vessel, from centre lines, varies along it: the simulated "
+                  "wall is straight."},
       {.key = "cascade.events",
        .target = &p.events,
        .unit = "1",

@@ -29,6 +29,14 @@ constexpr auto name_table(Resolution) {
   return std::to_array<Named<Resolution>>({{automatic, "auto"}, {paper, "paper"}});
 }
 
+/// The radius of a straight wall, of a vessel whose radius varies along it.
+enum class RadiusOf { mean, narrowest, widest };
+
+constexpr auto name_table(RadiusOf) {
+  using enum RadiusOf;
+  return std::to_array<Named<RadiusOf>>({{mean, "mean"}, {narrowest, "narrowest"}, {widest, "widest"}});
+}
+
 enum class Axis { x, y, z };
 
 constexpr auto name_table(Axis) {
@@ -49,6 +57,7 @@ struct Parameters {
   Mode mode = Mode::one_way;
   std::optional<double> window;  ///< s
   Resolution resolution = Resolution::automatic;
+  RadiusOf radius_of = RadiusOf::mean;
 
   double tension = 0, atmosphere = 0, compression = 0;  ///< Pa
   Axis compression_axis = Axis::x;

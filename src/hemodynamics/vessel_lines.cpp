@@ -48,10 +48,14 @@ network::WallFactors wall_factors(const network::Graph& graph, std::size_t vesse
 }
 
 double wall_thickness(const network::Graph& graph, std::size_t vessel, const VesselMechanics& mechanics) {
+  return wall_thickness_at(graph, vessel, graph.radius[vessel], mechanics);
+}
+
+double wall_thickness_at(const network::Graph& graph, std::size_t vessel, double radius,
+                         const VesselMechanics& mechanics) {
   const double factor = wall_factors(graph, vessel, mechanics).thickness;
   if (graph.knows_wall(vessel)) return factor * graph.wall_thickness[vessel];
   const VesselKind kind = graph.kind.empty() ? VesselKind::unknown : graph.kind[vessel];
-  const double radius = graph.radius[vessel];
   return factor * radius * wall_of(mechanics, kind).relative_thickness(radius);
 }
 
@@ -77,6 +81,43 @@ void VesselLines::add(const Vessel& v, const VesselMechanics& mechanics) {
       pressure, v.wall_thickness / v.radius, mechanics.young_modulus, mechanics.poisson_ratio));
   line_values_["haematocrit"].push_back(v.haematocrit);
   line_values_["vessel"].push_back(v.number);
+}
+
+/// A line for each piece of a vessel. Without the weight of blood, the pressure falls with the resistance.
+void VesselLines::add_pieces(const Vessel& vessel, const network::Graph& graph, std::size_t number,
+                             const VesselMechanics& mechanics) {
+  const std::span<const network::VesselPiece> pieces = graph.pieces(number);
+  const auto weight_at = [&](const network::Point& x) {
+    return mechanics.hydrostatic.pressure(x[0], x[1], x[2]);
+  };
+  const auto place_of = [&](std::int64_t point) {
+    const auto p = static_cast<std::size_t>(point);
+    return network::Point{position_[0][p], position_[1][p], position_[2][p]};
+  };
+  const auto driving = [&](std::int64_t point) {
+    return pressure_[static_cast<std::size_t>(point)] - weight_at(place_of(point));
+  };
+  const auto resistance_of = [&](const network::VesselPiece& p) {
+    return poiseuille_resistance(p.radius, p.length,
+                                 apparent_viscosity(mechanics.viscosity, p.radius, vessel.haematocrit));
+  };
+  double whole = 0, passed = 0;
+  for (const network::VesselPiece& p : pieces) whole += resistance_of(p);
+  const double first = driving(vessel.from), last = driving(vessel.to);
+  Vessel piece = vessel;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    passed += resistance_of(pieces[i]);
+    piece.from = i == 0 ? vessel.from : piece.to;
+    piece.to = vessel.to;
+    if (i + 1 < pieces.size()) {
+      const network::Point& x = pieces[i + 1].start;
+      piece.to = add_point(x, std::lerp(first, last, passed / whole) + weight_at(x));
+    }
+    piece.radius = pieces[i].radius;
+    piece.length = pieces[i].length;
+    piece.wall_thickness = wall_thickness_at(graph, number, piece.radius, mechanics);
+    add(piece, mechanics);
+  }
 }
 
 VesselLines VesselLines::of_tree(const TreeFlow& flow, std::span<const network::SelectedPlace> places,
@@ -142,17 +183,20 @@ VesselLines VesselLines::of_graph(const network::Graph& graph, const GraphFlow& 
   };
   for (const std::uint32_t v : vessels) {
     const std::int64_t from = point(graph.from[v]), to = point(graph.to[v]);
-    lines.add({.from = from,
-               .to = to,
-               .flow = flow.flow[v],
-               .radius = graph.radius[v],
-               .length = graph.length[v],
-               .wall_thickness = wall_thickness(graph, v, mechanics),
-               .generation = graph.generation.empty() ? -1.0 : graph.generation[v],
-               .haematocrit = haematocrit.empty() ? mechanics.viscosity.haematocrit : haematocrit[v],
-               .number = static_cast<double>(mechanics.numbers.empty() ? v : mechanics.numbers[v]),
-               .kind = graph.kind.empty() ? VesselKind::unknown : graph.kind[v]},
-              mechanics);
+    const Vessel vessel{.from = from,
+                        .to = to,
+                        .flow = flow.flow[v],
+                        .radius = graph.radius[v],
+                        .length = graph.length[v],
+                        .wall_thickness = wall_thickness(graph, v, mechanics),
+                        .generation = graph.generation.empty() ? -1.0 : graph.generation[v],
+                        .haematocrit = haematocrit.empty() ? mechanics.viscosity.haematocrit : haematocrit[v],
+                        .number = static_cast<double>(mechanics.numbers.empty() ? v : mechanics.numbers[v]),
+                        .kind = graph.kind.empty() ? VesselKind::unknown : graph.kind[v]};
+    if (graph.pieces(v).empty())
+      lines.add(vessel, mechanics);
+    else
+      lines.add_pieces(vessel, graph, v, mechanics);
   }
   return lines;
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The vessels of a network as lines with fields, for files and pictures.
+/// The vessels of a network as lines with fields, for files and pictures; a vessel of several pieces is as
+/// many lines.
 ///
 /// Points: `pressure` (Pa, relative to atmosphere). Lines: `flow` (m3/s, along the line), `radius` (m),
-/// `generation`
-/// (-1: unknown), `kind` (0 artery, 1 vein, 2 unknown), `wall_shear_stress` (Pa), `hoop_strain` (at the
-/// lumen, under the mean of both ends' pressures; network/wall.hpp), `haematocrit`, `vessel` (id or number).
+/// `generation` (-1: unknown), `kind` (0 artery, 1 vein, 2 unknown), `wall_shear_stress` (Pa), `hoop_strain`
+/// (at the lumen, under the mean of both ends' pressures; network/wall.hpp), `haematocrit`, `vessel` (id or
+/// number).
 #pragma once
 
 #include <array>
@@ -75,6 +76,8 @@ class VesselLines : public LineSource {
   };
   std::int64_t add_point(const network::Point& position, double pressure);
   void add(const Vessel& vessel, const VesselMechanics& mechanics);
+  void add_pieces(const Vessel& vessel, const network::Graph& graph, std::size_t number,
+                  const VesselMechanics& mechanics);
 
   long step_ = 0;
   double time_s_ = 0;
@@ -91,5 +94,8 @@ network::WallFactors wall_factors(const network::Graph& graph, std::size_t vesse
 /// Wall thickness of a vessel (m): its own where the graph has it, else by the rule for its kind; times its
 /// factor.
 double wall_thickness(const network::Graph& graph, std::size_t vessel, const VesselMechanics& mechanics);
+/// The same where the lumen's radius (m) is not the mean.
+double wall_thickness_at(const network::Graph& graph, std::size_t vessel, double radius,
+                         const VesselMechanics& mechanics);
 
 }  // namespace rhexis::hemodynamics

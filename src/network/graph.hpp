@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,19 @@ inline const char* name_of(VesselKind kind) {
   return kind == VesselKind::artery ? "artery" : kind == VesselKind::vein ? "vein" : "vessel";
 }
 
+/// A stretch of a vessel that has one radius, in m. `start` is where it begins.
+struct VesselPiece {
+  double radius = 0, length = 0;
+  Point start{};
+};
+
 /// Arrays over J junctions and V vessels; those marked optional are empty where nobody knows their values.
 struct Graph {
   std::size_t junctions = 0;    ///< J
   std::vector<double> x, y, z;  ///< [J] position, m; optional
   std::vector<std::uint32_t> from,
       to;  ///< [V] junctions that a vessel joins; blood flowing from -> to counts as positive
-  std::vector<double> radius, length;      ///< [V] of the lumen, m
+  std::vector<double> radius, length;      ///< [V] of the lumen, m; of radii that vary along it, the mean
   std::vector<double> wall_thickness;      ///< [V] m; optional: the wall rule gives it
   std::vector<VesselKind> kind;            ///< [V] optional
   std::vector<std::int8_t> generation;     ///< [V] optional
@@ -41,12 +48,34 @@ struct Graph {
   std::vector<std::string> vessel_name;    ///< [V] as in the user's file; optional: the index is the name
   std::vector<std::string> junction_label,
       vessel_label;  ///< [J], [V] further names, empty where there is none; optional
+  /// Pieces of vessels that have several, from `from` to `to`: vessel v's begin at first_piece[v] and end
+  /// before first_piece[v + 1] in `piece`. Both are optional: no vessel has any.
+  std::vector<std::uint32_t> first_piece;  ///< [V + 1]
+  std::vector<VesselPiece> piece;
 
   std::size_t vessels() const { return from.size(); }
   /// Whether the thickness of a vessel's wall is given; else the wall rule assumes it.
   bool knows_wall(std::size_t v) const { return !wall_thickness.empty() && wall_thickness[v] > 0; }
   /// The number of vessels of which it is.
   std::size_t known_walls() const;
+  /// None where the vessel is one stretch of one radius.
+  std::span<const VesselPiece> pieces(std::size_t v) const {
+    if (first_piece.empty()) return {};
+    return {piece.begin() + first_piece[v], piece.begin() + first_piece[v + 1]};
+  }
+  /// Gives the first vessel that has none yet its pieces.
+  void add_pieces(std::span<const VesselPiece> of_vessel);
+  /// Calls `use(radius, length)` for every piece of a vessel, or once for the whole of it.
+  template <class Use>
+  void for_each_piece(std::size_t v, const Use& use) const {
+    if (pieces(v).empty()) use(radius[v], length[v]);
+    for (const VesselPiece& p : pieces(v)) use(p.radius, p.length);
+  }
+  /// The radius of a vessel at one of its ends, m.
+  double radius_at(std::size_t v, std::uint32_t junction) const {
+    if (pieces(v).empty()) return radius[v];
+    return junction == from[v] ? pieces(v).front().radius : pieces(v).back().radius;
+  }
   std::string name_of_junction(std::size_t j) const;
   std::string name_of_vessel(std::size_t v) const;
 };

@@ -152,6 +152,7 @@ class DistributedSolver final : public FlowSolver {
       own.to.push_back(take(g.to[v]));
       own.radius.push_back(g.radius[v]);
       own.length.push_back(g.length[v]);
+      if (!g.first_piece.empty()) own.add_pieces(g.pieces(v));
       own.vessel_name.push_back(g.name_of_vessel(v));
       if (!g.wall_thickness.empty()) own.wall_thickness.push_back(g.wall_thickness[v]);
       if (!g.kind.empty()) own.kind.push_back(g.kind[v]);

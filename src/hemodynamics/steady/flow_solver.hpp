@@ -21,12 +21,18 @@
 
 namespace rhexis::hemodynamics {
 
+/// A cross-section of a vessel, m.
+struct VesselSection {
+  double radius = 0, wall_thickness = 0;
+};
+
 /// All of a vessel but its name.
 struct VesselProperties {
   std::int64_t vessel = 0;  ///< id in a tree, number in a graph
   network::VesselKind kind = network::VesselKind::unknown;
-  int generation = -1;                                ///< -1: unknown
-  double radius = 0, length = 0, wall_thickness = 0;  ///< m
+  int generation = -1;                                   ///< -1: unknown
+  double radius = 0, length = 0, wall_thickness = 0;     ///< m
+  std::optional<std::array<VesselSection, 2>> sections;  ///< narrowest and widest, if radii vary along it
   bool wall_is_given = false;                 ///< its thickness by the file or [[wall_range]]; else by [wall]
   double strength_factor = 1;                 ///< on the critical stretch of its wall
   double flow = 0;                            ///< m3/s, along the vessel

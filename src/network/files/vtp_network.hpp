@@ -2,10 +2,12 @@
 /// Networks as VTK's PolyData lines (.vtp, or .vtk in the legacy format), the files of ParaView and of centre
 /// line tools. VTK is in a plugin (librhexis_vtp.so, see core/plugin.hpp), which is opened by the first call.
 ///
-/// A line becomes one vessel between its end points, its length the sum of its pieces, if its interior points
-/// are its own, carry no condition, and its radius is a cell array or a point array that is constant along it
-/// (to 1e-12). It is cut at points that it shares with another line (or with itself) and at those with a
-/// condition; where the radius varies between two cuts, every piece becomes a vessel (see `tapered_radius`).
+/// A line becomes one vessel between its end points if its interior points are its own and carry no
+/// condition; it is cut at points that it shares with another line (or with itself) and at those with a
+/// condition. Where nothing else meets, a line that continues another one is of the same vessel, if the
+/// values of cells are those of the other. The vessel has pieces (Graph::pieces) where a point array of radii
+/// varies along it by more than 1e-12: one for every segment (see `tapered_radius`). A file whose lines have
+/// two points each is a list of vessels, which are not joined.
 /// Points that coincide are one, lines that repeat others are left out, gaps at ends of lines are closed
 /// (lines/line_merging.hpp). Junctions are the end points of vessels, in the order of the file's
 /// points. Where their numbers, or those of vessels, differ from the file's, their names are the file's

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// The work behind line_network.hpp: what the file has (line_points.cpp) and how it is cut
-/// (line_network.cpp).
+/// (line_network.cpp), and which segments are one vessel (line_branches.cpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -32,6 +32,7 @@ class Reading {
     count_visits();
     for (std::size_t l = 0; l < lines_.lines(); ++l) add_line(l);
     check_measures();
+    join_branches();
     number_junctions();
     name_vessels();
     return std::move(result_);
@@ -80,6 +81,7 @@ class Reading {
   double span_length(std::span<const std::size_t> run) const;
   void add_vessel(std::size_t line, std::span<const std::size_t> run);
   void check_measures() const;
+  void join_branches();
   double whole_number(const Array& array, std::size_t line, double low, double high) const;
   void number_junctions();
   void name_vessels();

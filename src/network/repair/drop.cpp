@@ -57,6 +57,13 @@ void keep_vessels(BoundedGraph& network, const std::vector<bool>& kept) {
     for (std::uint32_t& j : *ends) j = number[j];
   }
   for (auto* measures : {&g.radius, &g.length, &g.wall_thickness}) keep(*measures, kept);
+  if (!g.first_piece.empty()) {
+    Graph left;
+    for (std::size_t v = 0; v < kept.size(); ++v)
+      if (kept[v]) left.add_pieces(g.pieces(v));
+    g.first_piece = std::move(left.first_piece);
+    g.piece = std::move(left.piece);
+  }
   keep(g.kind, kept);
   keep(g.generation, kept);
   keep(g.vessel_name, kept);

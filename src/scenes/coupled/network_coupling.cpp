@@ -70,6 +70,7 @@ void NetworkCoupling::choose() {
   } else if (scene_.coupling.events == 0) {
     throw input::located(InputError("no vessel's wall is under tension", "coupling.vessel"), scene_.resolved);
   }
+  coupling::set_radius(chosen_, scene_.coupling.radius_of);
   if (chosen_.radius > 0) {
     risk_ = screening::risk(screening_.criterion, std::midpoint(chosen_.pressure_from, chosen_.pressure_to),
                             chosen_.wall_thickness / chosen_.radius, {chosen_.strength_factor, 1});
@@ -168,6 +169,12 @@ void NetworkCoupling::print_header(runtime::Console& console, double time_step) 
                            network::name_of(chosen_.kind),
                            chosen_.generation < 0 ? "" : fmt::format(", generation {}", chosen_.generation),
                            quantity(chosen_.length, "m"), mmhg(load[0]), mmhg(load[2])));
+  if (chosen_.sections) {
+    const auto& [narrowest, widest] = *chosen_.sections;
+    console.item("radius", fmt::format("{}, the {} of {} to {} along the vessel (coupling.radius_of)",
+                                       quantity(chosen_.radius, "m"), name_of(scene_.coupling.radius_of),
+                                       quantity(narrowest.radius, "m"), quantity(widest.radius, "m")));
+  }
   if (!segment.whole) {
     console.item(
         "piece",

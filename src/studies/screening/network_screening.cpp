@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rhexis::screening {
 
@@ -27,7 +28,10 @@ void NetworkScreening::visit(const network::Graph& g, const hemodynamics::GraphF
     const double pressure = 0.5 * (flow.pressure[g.from[v]] + flow.pressure[g.to[v]]);
     if (std::isnan(pressure)) continue;  // no blood reaches it
     const network::WallFactors strength{wall_factors(g, v, mechanics).strength, 1};
-    const double thickness = wall_thickness(g, v, mechanics) / g.radius[v];
+    double thickness = std::numeric_limits<double>::infinity();  // relative, where it is least
+    g.for_each_piece(v, [&](double radius, double) {
+      thickness = std::min(thickness, wall_thickness_at(g, v, radius, mechanics) / radius);
+    });
     of_graph_->add(g.generation.empty() ? -1 : g.generation[v],
                    g.kind.empty() ? network::VesselKind::unknown : g.kind[v],
                    {risk(criterion_, pressure, thickness, strength), v, 1});

@@ -121,8 +121,8 @@ std::vector<double> carried_haematocrit(const network::Graph& g, const GraphFlow
       const std::uint32_t a = d.vessel[begin], b = d.vessel[begin + 1];
       const double qa = std::abs(flow.flow[a]), qb = std::abs(flow.flow[b]);
       const double cells = mixed * (qa + qb);
-      const double fraction = red_cell_fraction(qa / (qa + qb), mixed, 2e6 * g.radius[d.bringing[j]],
-                                                2e6 * g.radius[a], 2e6 * g.radius[b]);
+      const double fraction = red_cell_fraction(qa / (qa + qb), mixed, 2e6 * g.radius_at(d.bringing[j], j),
+                                                2e6 * g.radius_at(a, j), 2e6 * g.radius_at(b, j));
       const double into_a = std::clamp(cells * fraction, cells - densest * qb, densest * qa);
       haematocrit[a] = into_a / qa;
       haematocrit[b] = std::max(0.0, cells - into_a) / qb;

@@ -72,9 +72,11 @@ void add_weight(const Graph& g, const Hydrostatic& hydrostatic, std::vector<doub
 std::array<double, 2> lumen_of(const Graph& g) {
   double volume = 0, surface = 0;
   for (std::size_t v = 0; v < g.vessels(); ++v) {
-    const double side = 2 * std::numbers::pi * g.radius[v] * g.length[v];
-    surface += side;
-    volume += side * g.radius[v] / 2;
+    g.for_each_piece(v, [&](double radius, double length) {
+      const double side = 2 * std::numbers::pi * radius * length;
+      surface += side;
+      volume += side * radius / 2;
+    });
   }
   return {volume, surface};
 }
@@ -84,9 +86,10 @@ double highest_reynolds_number(const Graph& g, const GraphFlow& flow, const Vess
   double highest = 0;
   for (std::size_t v = 0; v < g.vessels(); ++v) {
     const double h = haematocrit.empty() ? mechanics.viscosity.haematocrit : haematocrit[v];
-    const double eta = apparent_viscosity(mechanics.viscosity, g.radius[v], h);
-    highest =
-        std::max(highest, reynolds_number(g.radius[v], eta, flow.flow[v], mechanics.hydrostatic.density));
+    g.for_each_piece(v, [&](double radius, double) {
+      const double eta = apparent_viscosity(mechanics.viscosity, radius, h);
+      highest = std::max(highest, reynolds_number(radius, eta, flow.flow[v], mechanics.hydrostatic.density));
+    });
   }
   return highest;
 }
@@ -111,6 +114,12 @@ NetworkVessel describe_vessel(const Graph& g, const GraphFlow& flow, std::uint32
   q.length = g.length[v];
   q.wall_thickness = wall_thickness(g, v, mechanics);
   q.wall_is_given = g.knows_wall(v);
+  if (const auto pieces = g.pieces(v); !pieces.empty()) {
+    const auto [least, most] = std::ranges::minmax(pieces, {}, &network::VesselPiece::radius);
+    q.sections.emplace();
+    for (const auto& [i, radius] : {std::pair(0, least.radius), std::pair(1, most.radius)})
+      (*q.sections)[static_cast<std::size_t>(i)] = {radius, wall_thickness_at(g, v, radius, mechanics)};
+  }
   q.strength_factor = wall_factors(g, v, mechanics).strength;
   q.flow = flow.flow[v];
   q.pressure_from = flow.pressure[g.from[v]];
@@ -131,12 +140,16 @@ std::vector<double> conductances(const Graph& graph, const Viscosity& viscosity,
         double radius = 0, h = 0, eta = 0;
         for (std::size_t v = begin; v < end; ++v) {
           const double own = haematocrit.empty() ? viscosity.haematocrit : haematocrit[v];
-          if (graph.radius[v] != radius || own != h) {
-            radius = graph.radius[v];
-            h = own;
-            eta = apparent_viscosity(viscosity, radius, h);
-          }
-          conductance[v] = 1 / poiseuille_resistance(graph.radius[v], graph.length[v], eta);
+          double resistance = 0;
+          graph.for_each_piece(v, [&](double of_piece, double length) {
+            if (of_piece != radius || own != h) {
+              radius = of_piece;
+              h = own;
+              eta = apparent_viscosity(viscosity, radius, h);
+            }
+            resistance += poiseuille_resistance(of_piece, length, eta);
+          });
+          conductance[v] = 1 / resistance;
         }
       });
   return conductance;
