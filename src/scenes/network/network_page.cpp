@@ -130,7 +130,7 @@ void print_network_page(const network::Parameters& parameters, const PageFiles& 
                  fmt::format("{} (in SI: network.file_length_unit = \"m\")", files.clean.string()));
   }
   if (files.picture.empty()) return;
-  draw_network_page(network::with_vessels_for_pieces(network), files.picture, comm);
+  draw_network_page(network, files.picture, comm);
   console.item("picture", files.picture.string());
 }
 

@@ -8,6 +8,7 @@
 #include "hemodynamics/steady/graph/network_graph.hpp"
 #include "insitu/pipeline.hpp"
 #include "network/connectivity.hpp"
+#include "network/files/network_writer.hpp"
 #include "output/temporary_file.hpp"
 #include "parallel/together.hpp"
 
@@ -23,7 +24,9 @@ constexpr std::size_t most_drawn = 200000;
 class DrawnNetwork final : public LineSource {
  public:
   explicit DrawnNetwork(const network::BoundedGraph& network)
-      : graph_(network.graph), end_(network.graph.junctions) {
+      : vessels_(network.graph.vessels()),
+        graph_(network::with_vessels_for_pieces(network).graph),
+        end_(graph_.junctions) {
     const std::vector<std::uint32_t> degree = network::degrees(graph_);
     for (std::size_t j = 0; j < end_.size(); ++j) end_[j] = degree[j] == 1 ? 2 : 0;
     for (const network::BoundaryCondition& condition : network.conditions) end_[condition.junction] = 1;
@@ -49,14 +52,16 @@ class DrawnNetwork final : public LineSource {
     throw std::out_of_range("a drawn network has no field " + std::string(name));
   }
   std::vector<Annotation> annotations() const override {
-    return {{"shown", "1", static_cast<double>(radius_.size())},
-            {"vessels", "1", static_cast<double>(graph_.vessels())}};
+    const bool is_whole = radius_.size() == graph_.vessels();
+    return {{"shown", "1", static_cast<double>(is_whole ? vessels_ : radius_.size())},
+            {"vessels", "1", static_cast<double>(vessels_)}};
   }
 
   static constexpr FieldInfo infos[] = {{"radius", "m", 1, Centring::cell}, {"end", "1", 1, Centring::point}};
 
  private:
-  const network::Graph& graph_;
+  const std::size_t vessels_;       // of the network
+  const network::Graph graph_;      // with their pieces as vessels
   std::vector<double> end_;         // [J]
   std::vector<std::int64_t> ends_;  // two junctions a vessel
   std::vector<double> radius_;      // of the vessels drawn
