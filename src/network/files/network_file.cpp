@@ -54,7 +54,7 @@ BoundedGraph read_files(const std::vector<std::string>& files, const FileOptions
     case NetworkFormat::vtp:
       break;
   }
-  return read_vtp_network(files[0], metres_per_unit(), options.merge_tolerance);
+  return read_vtp_network(files[0], metres_per_unit(), options.merge_tolerance, options.drops_self_loops);
 }
 
 }  // namespace

@@ -110,21 +110,21 @@ void check_fits_vtp(const BoundedGraph& network, const std::filesystem::path& pa
   if (g.x.empty()) refuse("network without coordinates");
   if (const std::size_t known = g.known_walls(); known > 0 && known < g.vessels())
     refuse("wall thicknesses of some vessels alone");
-  for (const BoundaryCondition& condition : network.conditions) {
+  for (const BoundaryCondition& condition : network.conditions)
     if (condition.resistance != 0) refuse("resistances at ends");
-    if (condition.haematocrit) refuse("haematocrits at ends");
-  }
 }
 
 void write_vtp_network(const std::filesystem::path& path, const BoundedGraph& read) {
   const BoundedGraph network = with_vessels_for_pieces(read);
   const double none = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> pressure(network.graph.junctions, none), flow = pressure;
+  std::vector<double> pressure(network.graph.junctions, none), flow = pressure, haematocrit = pressure;
   for (const BoundaryCondition& condition : network.conditions) {
     const bool is_pressure = condition.kind == BoundaryCondition::Kind::pressure;
     (is_pressure ? pressure : flow)[condition.junction] = condition.value;
+    haematocrit[condition.junction] = condition.haematocrit.value_or(none);
   }
-  const NamedArray of_points[] = {{"pressure_condition", pressure}, {"flow_condition", flow}};
+  const NamedArray of_points[] = {
+      {"pressure_condition", pressure}, {"flow_condition", flow}, {"haematocrit_condition", haematocrit}};
   write_vtp_network(path, network.graph, of_points, {});
 }
 

@@ -18,7 +18,7 @@ BoundedGraph with_vessels_for_pieces(const BoundedGraph& network);
 std::string json_of(const BoundedGraph& network);
 
 /// Throws InputError, naming `path`, where a VTP file cannot hold the network: without coordinates, with
-/// the wall thickness of some vessels alone, or with resistances or haematocrits at its ends.
+/// the wall thickness of some vessels alone, or with resistances at its ends.
 void check_fits_vtp(const BoundedGraph& network, const std::filesystem::path& path);
 
 /// The network in metres as a VTP file (see vtp_network.hpp). Names are not in it. Throws RunError.

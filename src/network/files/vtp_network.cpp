@@ -80,7 +80,7 @@ bool knows_vtp() {
 }
 
 BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit,
-                              double merge_tolerance) {
+                              double merge_tolerance, bool drops_self_loops) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) throw InputError(path.string() + ": no such file");
   auto* read = plugin_function<vtp::Read, InputError>(vtp::read_symbol, path, "reading");
@@ -97,7 +97,8 @@ BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_p
     throw InputError(fmt::format("{}: not a complete {} file of PolyData: {}", path.string(),
                                  is_legacy ? "legacy VTK" : "VTP", error));
   }
-  return network_of_lines(std::move(lines), path.string(), metres_per_unit, merge_tolerance);
+  return network_of_lines(std::move(lines), path.string(), metres_per_unit, merge_tolerance,
+                          drops_self_loops);
 }
 
 void write_vtp_network(const std::filesystem::path& path, const Graph& graph,

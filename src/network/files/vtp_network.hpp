@@ -17,8 +17,9 @@
 /// - radius, Radius, MaximumInscribedSphereRadius, diameter or Diameter, of cells or points: the first found
 /// - length, wall_thickness, of cells; a length is shared out among a line's vessels
 /// - kind (0 artery, 1 vein, 2 unknown), generation (-1: unknown, to 127), of cells
-/// - pressure_condition, flow_condition (into the network), of points; nan: none (VTK reads nan from binary
-///   and appended data only, not from format="ascii")
+/// - pressure_condition, flow_condition (into the network), haematocrit_condition (of the blood that enters
+///   where one of the others is known), of points; nan: none (VTK reads nan from binary and appended data
+///   only, not from format="ascii")
 #pragma once
 
 #include <filesystem>
@@ -34,9 +35,10 @@ namespace rhexis::network {
 bool knows_vtp();
 
 /// Reads a network; throws InputError, naming the file and the cell or point at fault, also where there is
-/// no plugin. `merge_tolerance`: as a fraction of the radius, see line_merging.hpp.
+/// no plugin. `merge_tolerance` and `drops_self_loops`: see line_network.hpp.
 BoundedGraph read_vtp_network(const std::filesystem::path& path, double metres_per_unit,
-                              double merge_tolerance = default_merge_tolerance);
+                              double merge_tolerance = default_merge_tolerance,
+                              bool drops_self_loops = false);
 
 struct NamedArray {
   std::string name;

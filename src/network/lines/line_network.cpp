@@ -97,7 +97,7 @@ void Reading::add_vessel(std::size_t line, std::span<const std::size_t> run) {
   const std::size_t from = same_[run.front()], to = same_[run.back()];
   if (from == to && is_merged_)
     return;  // it left another line and came back to the same place: nothing flows
-  if (from == to) fail_at_cell(line, fmt::format("a line from point {} to itself", from));
+  if (from == to) return drop_self_loop(line, from);
   from_.push_back(from);
   to_.push_back(to);
   line_.push_back(line);
@@ -113,6 +113,22 @@ void Reading::add_vessel(std::size_t line, std::span<const std::size_t> run) {
   if (kind_ != nullptr) graph.kind.push_back(static_cast<VesselKind>(whole_number(*kind_, line, 0, 2)));
   if (generation_ != nullptr)
     graph.generation.push_back(static_cast<std::int8_t>(whole_number(*generation_, line, -1, 127)));
+}
+
+/// A line, or a piece of one, leads from a point to itself.
+void Reading::drop_self_loop(std::size_t line, std::size_t point) {
+  if (!drops_self_loops_)
+    fail_at_cell(line, fmt::format("a line from point {} to itself (network.drop = [\"self_loops\"] leaves "
+                                   "such lines out)",
+                                   point));
+  if (self_loops_++ == 0) first_self_loop_ = line;
+}
+
+void Reading::note_self_loops() {
+  if (self_loops_ > 0)
+    result_.notes.push_back(fmt::format(
+        "{}: {} lines that lead from a point to itself are left out (network.drop); the first is cell {}",
+        file_, self_loops_, cell(first_self_loop_)));
 }
 
 void Reading::check_measures() const {
@@ -194,8 +210,8 @@ double tapered_radius(double a, double b) {
 }
 
 BoundedGraph network_of_lines(vtp::Lines lines, const std::string& file, double metres_per_unit,
-                              double merge_tolerance) {
-  return vtp::Reading(std::move(lines), file, metres_per_unit, merge_tolerance).network();
+                              double merge_tolerance, bool drops_self_loops) {
+  return vtp::Reading(std::move(lines), file, metres_per_unit, merge_tolerance, drops_self_loops).network();
 }
 
 }  // namespace rhexis::network

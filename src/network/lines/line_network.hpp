@@ -17,9 +17,9 @@ constexpr double default_merge_tolerance = 0.05;
 /// of 1/(a + (b - a) s)^4 over s = 0 .. 1, that is (a^-3 - b^-3) / (3 (b - a)) = (a2 + a b + b2) / (3 a3 b3).
 double tapered_radius(double a, double b);
 
-/// The merge tolerance is a fraction of the radius (line_merging.hpp). Throws InputError; `file` begins every
-/// message.
+/// The merge tolerance is a fraction of the radius (line_merging.hpp). Vessels from a junction to itself are
+/// left out with `drops_self_loops`, else refused. Throws InputError; `file` begins every message.
 BoundedGraph network_of_lines(vtp::Lines lines, const std::string& file, double metres_per_unit,
-                              double merge_tolerance);
+                              double merge_tolerance, bool drops_self_loops = false);
 
 }  // namespace rhexis::network

@@ -82,8 +82,7 @@ void Reading::merge_points() {
     const auto at_first = [&](std::int64_t p) {
       return same_[static_cast<std::size_t>(p)] == same_[static_cast<std::size_t>(points.front())];
     };
-    if (std::ranges::all_of(points, at_first))
-      fail_at_cell(l, fmt::format("a line from point {} to itself", points.front()));
+    if (std::ranges::all_of(points, at_first)) drop_self_loop(l, static_cast<std::size_t>(points.front()));
   }
 }
 
@@ -114,9 +113,11 @@ void Reading::find_conditions() {
   const Array* flow = find(lines_.point_arrays, condition_names[1]);
   if (pressure != nullptr) add_condition(*pressure, BoundaryCondition::Kind::pressure);
   if (flow != nullptr) add_condition(*flow, BoundaryCondition::Kind::flow);
+  add_haematocrits();
 }
 
-void Reading::add_condition(const Array& array, BoundaryCondition::Kind kind) {
+/// [point] the values of an array at the first points of their places; nan where nothing is known.
+std::vector<double> Reading::values_at_places(const Array& array) const {
   std::vector<double> known(lines_.points(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t p = 0; p < lines_.points(); ++p) {
     const double value = array.values[p];
@@ -128,12 +129,41 @@ void Reading::add_condition(const Array& array, BoundaryCondition::Kind kind) {
                        value));
     at_place = value;
   }
+  return known;
+}
+
+void Reading::add_condition(const Array& array, BoundaryCondition::Kind kind) {
+  const std::vector<double> known = values_at_places(array);
   for (std::size_t p = 0; p < lines_.points(); ++p) {
     if (std::isnan(known[p])) continue;
     if (has_condition_[p] != 0) fail(fmt::format("point {}: both a pressure and a flow condition", p));
     has_condition_[p] = 1;
     condition_.push_back({static_cast<std::uint32_t>(p), kind, known[p], 0});
   }
+}
+
+/// Gives conditions the haematocrits of the blood that enters there.
+void Reading::add_haematocrits() {
+  const Array* array = find(lines_.point_arrays, "haematocrit_condition");
+  if (array == nullptr) return;
+  std::vector<double> known = values_at_places(*array);
+  for (std::size_t p = 0; p < known.size(); ++p) {
+    if (!std::isnan(known[p]) && !(known[p] >= 0 && known[p] <= highest_haematocrit))
+      fail(fmt::format("point {}: {} is {}, not a fraction from 0 to {}", p, array->name, known[p],
+                       highest_haematocrit));
+  }
+  for (BoundaryCondition& condition : condition_) {
+    double& haematocrit = known[condition.junction];
+    if (std::isnan(haematocrit)) continue;
+    condition.haematocrit = haematocrit;
+    haematocrit = std::numeric_limits<double>::quiet_NaN();
+  }
+  const auto idle = std::ranges::count_if(known, [](double value) { return !std::isnan(value); });
+  if (idle > 0)
+    result_.notes.push_back(
+        fmt::format("{}: {} points with a haematocrit, but neither a pressure nor a flow, at which it is not "
+                    "used",
+                    file_, idle));
 }
 
 }  // namespace rhexis::network::vtp

@@ -20,8 +20,13 @@ namespace rhexis::network::vtp {
 
 class Reading {
  public:
-  Reading(Lines lines, const std::string& file, double metres_per_unit, double merge_tolerance)
-      : lines_(std::move(lines)), file_(file), unit_(metres_per_unit), tolerance_(merge_tolerance) {}
+  Reading(Lines lines, const std::string& file, double metres_per_unit, double merge_tolerance,
+          bool drops_self_loops)
+      : lines_(std::move(lines)),
+        file_(file),
+        unit_(metres_per_unit),
+        tolerance_(merge_tolerance),
+        drops_self_loops_(drops_self_loops) {}
 
   BoundedGraph network() {
     check_lines();
@@ -31,10 +36,12 @@ class Reading {
     find_conditions();
     count_visits();
     for (std::size_t l = 0; l < lines_.lines(); ++l) add_line(l);
+    if (from_.empty()) fail("there are no vessels: each line leads from a point to itself");
     check_measures();
     join_branches();
     number_junctions();
     name_vessels();
+    note_self_loops();
     return std::move(result_);
   }
 
@@ -69,7 +76,9 @@ class Reading {
   void merge_points();
   void merge_lines();
   void find_conditions();
+  std::vector<double> values_at_places(const Array& array) const;
   void add_condition(const Array& array, BoundaryCondition::Kind kind);
+  void add_haematocrits();
   void count_visits();
   template <class Use>
   void for_each_stretch(std::size_t line, const Use& use) const;
@@ -80,6 +89,8 @@ class Reading {
   bool constant_radius(std::span<const std::size_t> run) const;
   double span_length(std::span<const std::size_t> run) const;
   void add_vessel(std::size_t line, std::span<const std::size_t> run);
+  void drop_self_loop(std::size_t line, std::size_t point);
+  void note_self_loops();
   void check_measures() const;
   void join_branches();
   double whole_number(const Array& array, std::size_t line, double low, double high) const;
@@ -89,6 +100,7 @@ class Reading {
   Lines lines_;
   const std::string& file_;
   const double unit_, tolerance_;
+  const bool drops_self_loops_;
   const Array *cell_radius_ = nullptr, *point_radius_ = nullptr;
   double radius_factor_ = 1;  ///< 1/2 of a diameter
   const Array *length_ = nullptr, *wall_ = nullptr, *kind_ = nullptr, *generation_ = nullptr;
@@ -100,6 +112,7 @@ class Reading {
   std::vector<std::size_t> from_, to_;        ///< [vessel] as points
   std::vector<std::size_t> line_;             ///< [vessel]
   bool is_merged_ = false;                    ///< whether lines were joined or left out
+  std::size_t self_loops_ = 0, first_self_loop_ = 0;  ///< lines that are left out
   BoundedGraph result_;
 };
 

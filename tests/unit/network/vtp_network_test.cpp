@@ -82,6 +82,53 @@ TEST_F(VtpNetwork, RoundTripOfATree) {
   }
 }
 
+TEST_F(VtpNetwork, HaematocritsOfTheBloodThatEnters) {
+  Graph graph;
+  graph.junctions = 3;
+  graph.x = {0, 1e-3, 2e-3};
+  graph.y = graph.z = {0, 0, 0};
+  graph.from = {0, 1};
+  graph.to = {1, 2};
+  graph.radius = {1e-5, 2e-5};
+  graph.length = {1e-3, 1e-3};
+  const auto read = [&](std::vector<double> haematocrit) {
+    const std::vector<double> pressure{4000, NAN, NAN}, flow{NAN, NAN, -1e-12};
+    const NamedArray points[] = {
+        {"pressure_condition", pressure}, {"flow_condition", flow}, {"haematocrit_condition", haematocrit}};
+    write_vtp_network(folder_ / "t.vtp", graph, points, {});
+    return read_vtp_network(folder_ / "t.vtp", 1);
+  };
+  const BoundedGraph n = read({0.3, 0.4, NAN});
+  ASSERT_EQ(n.conditions.size(), 2u);
+  EXPECT_EQ(n.conditions[0].haematocrit, 0.3);
+  EXPECT_EQ(n.conditions[1].haematocrit, std::nullopt);
+  ASSERT_EQ(n.notes.size(), 1u);
+  EXPECT_NE(n.notes[0].find("1 points with a haematocrit, but neither"), std::string::npos) << n.notes[0];
+  for (const double wrong : {45.0, -0.1, HUGE_VAL}) {
+    try {
+      read({wrong, NAN, NAN});
+      ADD_FAILURE() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("point 0: haematocrit_condition is"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST_F(VtpNetwork, LinesFromAPointToItselfAreLeftOutWhereThatIsAsked) {
+  // A triangle that begins and ends at point 0, a line that never leaves it, and one to point 3.
+  const auto file = write(polydata(4, 3, "0 0 0  3 0 0  0 4 0  9 0 0", "0 1 2 0  0 0  0 3", "4 6 8", "",
+                                   array("radius", "1 1 2")));
+  EXPECT_THROW(read_vtp_network(file, 1e-3), InputError);
+  const BoundedGraph n = read_vtp_network(file, 1e-3, default_merge_tolerance, true);
+  ASSERT_EQ(n.graph.vessels(), 1u);
+  EXPECT_EQ(n.graph.junctions, 2u);
+  EXPECT_DOUBLE_EQ(n.graph.radius[0], 2e-3);
+  EXPECT_EQ(n.graph.name_of_vessel(0), "2");
+  ASSERT_EQ(n.notes.size(), 1u);
+  EXPECT_NE(n.notes[0].find("2 lines that lead from a point to itself"), std::string::npos) << n.notes[0];
+}
+
 TEST_F(VtpNetwork, PolylinesBecomeVesselsBetweenBranchings) {
   // A line of three pieces (3, 4 and 12 long), and one that leaves its second point, which therefore cuts it.
   const BoundedGraph n = read_vtp_network(write(polydata(5, 2, "0 0 0  3 0 0  3 4 0  3 4 12  9 0 0",
