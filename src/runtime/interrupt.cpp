@@ -63,10 +63,9 @@ class Watch {
     return watch;
   }
 
-  void add(output::RunRecord& record, const std::filesystem::path& folder, bool writes, bool embedded) {
+  void start(const std::filesystem::path& folder, bool writes, bool embedded) {
     const std::lock_guard lock(mutex_);
-    records_.push_back(&record);
-    if (records_.size() > 1) return;  // of a run within a run, in a folder within its folder
+    if (++runs_ > 1) return;  // a run within a run, in a folder within its folder
     folder_ = folder;
     writes_ = writes;
     is_embedded = embedded;
@@ -77,11 +76,19 @@ class Watch {
     thread_ = std::thread([this] { watch(); });
   }
 
-  void remove(const output::RunRecord& record) {
+  void add(output::RunRecord& record) {
+    const std::lock_guard lock(mutex_);
+    records_.push_back(&record);
+    // The signal came before there was a record to tell of it.
+    if (const int signal = first_signal; signal != 0 && writes_)
+      record.fail_alone(interrupted_unsaved(signal));
+  }
+
+  void stop(const output::RunRecord* record) {
     {
       const std::lock_guard lock(mutex_);
-      std::erase(records_, &record);
-      if (!records_.empty()) return;
+      std::erase(records_, record);
+      if (--runs_ > 0) return;
       for (std::size_t i = 0; i < watched.size(); ++i) sigaction(watched[i], &before_[i], nullptr);
     }
     leave = true;
@@ -110,6 +117,10 @@ class Watch {
  private:
   Watch() { sem_init(&wake, 0, 0); }
 
+  static std::string interrupted_unsaved(int signal) {
+    return interrupted_by(signal) + ", and ended before its state was saved";
+  }
+
   /// Forgets the signals of an earlier run in the same process.
   void forget_signals() {
     first_signal = fatal = 0;
@@ -130,7 +141,7 @@ class Watch {
 
   void respond_to(int signal) {
     if (++count_ == 1) {
-      if (writes_) fail_records(interrupted_by(signal) + ", and ended before its state was saved");
+      if (writes_) fail_records(interrupted_unsaved(signal));
       say(fmt::format("{}: {}", signal_name(signal),
                       guards > 0 ? "the run saves its state and ends"
                                  : "the run will end after what it is at, which cannot be interrupted; a "
@@ -157,6 +168,7 @@ class Watch {
   }
 
   std::mutex mutex_;
+  int runs_ = 0;
   std::vector<output::RunRecord*> records_;
   std::filesystem::path folder_;
   bool writes_ = false;
@@ -189,14 +201,17 @@ std::string interrupted_by(int signal) {
   return "interrupted by " + signal_name(signal);
 }
 
-SignalWatch::SignalWatch(output::RunRecord& record, const std::filesystem::path& folder, bool writes,
-                         bool embedded)
-    : record_(&record) {
-  Watch::instance().add(record, folder, writes, embedded);
+SignalWatch::SignalWatch(const std::filesystem::path& folder, bool writes, bool embedded) {
+  Watch::instance().start(folder, writes, embedded);
+}
+
+void SignalWatch::tell(output::RunRecord& record) {
+  record_ = &record;
+  Watch::instance().add(record);
 }
 
 SignalWatch::~SignalWatch() {
-  Watch::instance().remove(*record_);
+  Watch::instance().stop(record_);
 }
 
 InterruptGuard::InterruptGuard() {

@@ -27,21 +27,25 @@ std::string signal_name(int signal);
 /// "interrupted by SIGTERM".
 std::string interrupted_by(int signal);
 
-/// A run's record that is told of signals while this lives; without one, signals do what they do by default.
-/// Where no InterruptGuard lives besides, there is nothing to save: a signal leaves its words in the record
-/// and ends the program with status 128 + signal.
+/// While it lives, signals are noted and told to a run's record; without one, they do what they do by
+/// default. It is made before the record is written, so that no record says "running" of a run that a signal
+/// ended. Where no InterruptGuard lives besides, there is nothing to save: a signal leaves its words in the
+/// record and ends the program with status 128 + signal.
 class SignalWatch {
  public:
   /// `folder`: where temporary files are to go when the program ends at once. `writes`: this rank is the one
   /// that tells the record, and the user. `embedded`: the run is in another program, so that a signal is
   /// noted as under an InterruptGuard, and one that the program ignores stays ignored.
-  SignalWatch(output::RunRecord& record, const std::filesystem::path& folder, bool writes, bool embedded);
+  SignalWatch(const std::filesystem::path& folder, bool writes, bool embedded);
   ~SignalWatch();
   SignalWatch(const SignalWatch&) = delete;
   SignalWatch& operator=(const SignalWatch&) = delete;
 
+  /// The record to tell; it must live on. A signal that has come already is told at once.
+  void tell(output::RunRecord& record);
+
  private:
-  output::RunRecord* record_;
+  output::RunRecord* record_ = nullptr;
 };
 
 /// While it lives, the first signal is left to the run to act on: the record tells of it at once, in case

@@ -46,9 +46,10 @@ void RunSession::open_record(std::optional<std::int64_t> first_step) {
       .first_step = first_step};
   if (!options_.restart.empty()) provenance.checkpoint = options_.restart.string();
   folder_->remove_earlier_results();
+  signals_.emplace(folder_->path(), comm_.is_root(), options_.embedded);
   record_.emplace(folder_->claim("run.json"), provenance, *description_.input, state_.results(),
                   Performance{}, comm_);
-  signals_.emplace(*record_, folder_->path(), comm_.is_root(), options_.embedded);
+  signals_->tell(*record_);
 }
 
 void RunSession::warn(const std::string& text) {
