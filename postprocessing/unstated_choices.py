@@ -28,6 +28,9 @@ CHOICES = [
     ("our discretisation", {"discretisation.cross_section": "polar", "load.layer": "nonlocal"}),
     ("pressure at once", {"load.schedule": "step"}),
     ("smooth ramp", {"load.schedule": "smooth_ramp"}),
+    ("pressure on the deformed lumen", {"load.direction": "follower"}),
+    ("our discretisation, pressure on the deformed lumen",
+     {"discretisation.cross_section": "polar", "load.layer": "nonlocal", "load.direction": "follower"}),
     ("venting", {"load.venting": "orifice"}),
     ("double-precision bonds", {"discretisation.bond_precision": "double"}),
 ]

@@ -124,8 +124,10 @@ void check(const scenes::VesselScene& s, const scenes::Reading& reading) {
   print_validity(console, s);
   print_particles(console, wall);
   print_accuracy(console, wall, reading.comm);
-  console.item("load", fmt::format("{} ({})", quantity(peridynamics::highest_pressure(wall.parameters), "Pa"),
-                                   peridynamics::describe_schedule(wall.parameters)));
+  console.item("load",
+               fmt::format("{} ({}) {}", quantity(peridynamics::highest_pressure(wall.parameters), "Pa"),
+                           peridynamics::describe_schedule(wall.parameters),
+                           peridynamics::describe_direction(wall.parameters)));
   scenes::print_risk(console, wall.parameters);
   print_time_step(console, wall, reading.comm);
   print_time(console, s, step, reading.comm);

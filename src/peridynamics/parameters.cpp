@@ -129,9 +129,8 @@ ParameterList declare(Parameters& p) {
        .target = &p.pressure,
        .unit = "Pa",
        .default_in = "kPa",
-       .meaning = "Net pressure on the lumen, P_net, after the schedule. It acts on the undeformed lumen's "
-                  "area in its undeformed directions (Eq. 8): a lumen stretched by 1.27 is pushed by 282 kPa "
-                  "as hard as a blood pressure of 222 kPa would push it.",
+       .meaning = "Net pressure on the lumen, P_net, after the schedule: a blood pressure, unless "
+                  "load.direction is \"dead\".",
        .source = "Table 2, Eqs. (7), (8)",
        .range = Range::not_negative(),
        .only_with = {when("load.schedule", Schedule::step, Schedule::ramp, Schedule::smooth_ramp)}},
@@ -147,7 +146,7 @@ ParameterList declare(Parameters& p) {
       {.key = "load.table",
        .target = &p.table,
        .unit = "s, Pa",
-       .meaning = "Pressure by time, on the undeformed lumen as load.pressure, linear in between, constant "
+       .meaning = "Pressure by time, as load.pressure, linear in between, constant "
                   "outside: [[\"0 ms\", \"0 kPa\"], [\"2 ms\", \"200 kPa\"]].",
        .range = Range::not_negative()},
       {.key = "load.table_file",
@@ -163,10 +162,11 @@ ParameterList declare(Parameters& p) {
        .only_with = {when("load.schedule", Schedule::table)}},
       {.key = "load.direction",
        .target = &p.direction,
-       .meaning = "follower: a blood pressure, which acts on the deformed lumen, on its area and along its "
-                  "normals, and no "
-                  "longer where the wall is torn. dead: the paper's, which keeps the undeformed lumen's area "
-                  "and directions.",
+       .meaning =
+           "follower: a blood pressure, which acts on the deformed lumen, on its area and along its "
+           "normals, and not where the wall is torn. dead: the paper's, on the undeformed lumen's area "
+           "in its undeformed directions; 282 kPa then push a lumen stretched by 1.27 as hard as a "
+           "blood pressure of 222 kPa.",
        .source = "Eq. (8)"},
       {.key = "load.layer",
        .target = &p.layer,
@@ -182,7 +182,7 @@ ParameterList declare(Parameters& p) {
        .range = Range::positive()},
       {.key = "load.venting",
        .target = &p.venting,
-       .meaning = "After rupture: none (the dead load goes on pushing fragments, as in the paper) or orifice "
+       .meaning = "After rupture: none (the load goes on, as in the paper) or orifice "
                   "(the pressure falls as the wall opens: P / (1 + (A_open / A_supply)^2))."},
       {.key = "load.supply_area",
        .target = &p.supply_area,

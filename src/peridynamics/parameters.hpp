@@ -111,7 +111,7 @@ struct Parameters {
   std::vector<CurvePoint> table;    ///< (s, Pa)
   std::string table_file;           ///< where the table comes from; empty: the input itself
   bool repeat = false;              ///< the table, again and again
-  LoadDirection direction = LoadDirection::dead;
+  LoadDirection direction = LoadDirection::follower;
   LayerForce layer = LayerForce::nonlocal;
   std::optional<double> layer_thickness;  ///< m
   Venting venting = Venting::orifice;

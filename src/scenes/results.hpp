@@ -21,8 +21,9 @@ struct Results {
   std::optional<double> simulated_s = {};
   std::optional<double> first_bond_break_s = {};
   std::optional<double> rupture_onset_s = {};       ///< first time that some particle's damage >= 0.2
-  std::optional<double> pressure_at_onset_Pa = {};  ///< the largest in the vessel, on the reference area
-  /// The blood pressure that pushes the stretched lumen as hard: the one above over the lumen's stretch.
+  std::optional<double> pressure_at_onset_Pa = {};  ///< the largest in the vessel, as load.direction means it
+  /// The blood pressure that pushes the stretched lumen as hard: the one above, of a dead load over the
+  /// lumen's stretch.
   std::optional<double> blood_pressure_at_onset_Pa = {};
   std::optional<double> max_displacement_at_onset_m = {};
   std::optional<double> max_displacement_m = {}, max_damage = {};

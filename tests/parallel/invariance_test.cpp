@@ -27,6 +27,7 @@ struct Case {
   double length;
   double scatter = 0;
   const char* law = "pmb";
+  LoadDirection direction = LoadDirection::dead;
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -44,7 +45,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"ScatteredPeriodic", "polar", "axial_periodic", "double", 3.3e-3, 0.1},
                     Case{"Fung", "lattice", "free", "single", 2e-3, 0.1, "fung"},
                     Case{"Lps", "polar", "clamped", "single", 3.7e-3, 0, "lps"},
-                    Case{"LpsPeriodic", "lattice", "axial_periodic", "double", 3.3e-3, 0.1, "lps"}),
+                    Case{"LpsPeriodic", "lattice", "axial_periodic", "double", 3.3e-3, 0.1, "lps"},
+                    Case{"Follower", "polar", "clamped", "single", 3.7e-3, 0.1, "pmb",
+                         LoadDirection::follower},
+                    Case{"FollowerFree", "polar", "free", "single", 2e-3, 0, "pmb", LoadDirection::follower},
+                    Case{"FollowerLattice", "lattice", "axial_periodic", "double", 3.3e-3, 0.1, "lps",
+                         LoadDirection::follower}),
     [](const auto& i) { return i.param.name; });
 
 Parameters parameters(const Case& c) {
@@ -53,6 +59,7 @@ Parameters parameters(const Case& c) {
   p.ends = value_of<EndCondition>(c.ends).value();
   p.bond_precision = value_of<Precision>(c.precision).value();
   p.critical_stretch = 0.1;
+  p.direction = c.direction;
   p.scatter.critical_stretch = c.scatter;
   p.scatter.stiffness = c.scatter;
   if (c.scatter > 0)

@@ -61,6 +61,11 @@ std::string describe_schedule(const Parameters& p) {
          (p.repeat ? ", repeated" : "");
 }
 
+std::string describe_direction(const Parameters& p) {
+  return std::string("on the ") + (p.direction == LoadDirection::dead ? "undeformed" : "deformed") +
+         " lumen (" + std::string(name_of(p.direction)) + ")";
+}
+
 double time_of_pressure(const Parameters& p, double pressure) {
   const InputError never("the schedule never reaches this pressure", "start.equilibrium_pressure");
   if (p.schedule == Schedule::table) {

@@ -24,6 +24,9 @@ double highest_pressure(const Parameters& p);
 /// "ramp", "table of 4 points to 800 ms, repeated".
 std::string describe_schedule(const Parameters& p);
 
+/// "on the deformed lumen (follower)".
+std::string describe_direction(const Parameters& p);
+
 /// When, in s, the schedule first has `pressure` (Pa; 0 for "step"). Throws InputError where it never has.
 double time_of_pressure(const Parameters& p, double pressure);
 

@@ -74,7 +74,8 @@ VesselSimulation::Report VesselSimulation::record(bool broken, bool damaged) {
   if (!damaged || rupture_.onset) return report;
   rupture_.onset = time();
   rupture_.pressure = pressure();
-  rupture_.blood_pressure = *rupture_.pressure / gauge_->largest_lumen_stretch();
+  rupture_.blood_pressure =
+      *rupture_.pressure / (p_.direction == LoadDirection::dead ? gauge_->largest_lumen_stretch() : 1);
   rupture_.max_displacement = body_->max_displacement();
   report.ruptures = true;
   return report;

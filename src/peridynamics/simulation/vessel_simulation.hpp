@@ -24,8 +24,8 @@ namespace rhexis::peridynamics {
 struct RuptureEvents {
   std::optional<double> first_break = {};  ///< s, of a bond
   std::optional<double> onset = {};        ///< s, of a damage of `rupture_damage` somewhere
-  /// At the onset: the largest pressure in the vessel on the reference area, the blood pressure that pushes
-  /// the stretched lumen as hard (Pa), and the largest displacement (m).
+  /// At the onset: the largest pressure in the vessel as the input means it, the blood pressure that pushes
+  /// the stretched lumen as hard (Pa; the same, unless the load is dead), and the largest displacement (m).
   std::optional<double> pressure = {}, blood_pressure = {}, max_displacement = {};
 };
 

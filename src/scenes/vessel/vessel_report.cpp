@@ -56,9 +56,10 @@ void VesselRun::print_header() {
                           quantity(c_.wall->time.step, "s"), 100 * c_.wall->time.step / c_.wall->time.stable,
                           quantity(c_.wall->time.stable, "s")));
   session_.console().item(
-      "load", fmt::format("{} ({}) on the undeformed lumen, layer {}, venting {}",
-                          quantity(peridynamics::highest_pressure(v), "Pa"),
-                          peridynamics::describe_schedule(v), name_of(v.layer), name_of(v.venting)));
+      "load",
+      fmt::format("{} ({}) {}, layer {}, venting {}", quantity(peridynamics::highest_pressure(v), "Pa"),
+                  peridynamics::describe_schedule(v), peridynamics::describe_direction(v), name_of(v.layer),
+                  name_of(v.venting)));
   if (network_ != nullptr) {
     network_->print_header(session_.console(), c_.wall->time.step);
   } else {
@@ -68,11 +69,12 @@ void VesselRun::print_header() {
 }
 
 void VesselRun::print_onset(const peridynamics::RuptureEvents& rupture) {
+  const bool dead = c_.wall->parameters.direction == peridynamics::LoadDirection::dead;
   session_.console().line(
-      fmt::format("  rupture begins at {} under {} on the reference area (a blood pressure of {}), largest "
-                  "displacement {}",
-                  quantity(*rupture.onset, "s"), quantity(*rupture.pressure, "Pa"),
-                  quantity(*rupture.blood_pressure, "Pa"), quantity(*rupture.max_displacement, "m", 3)));
+      fmt::format("  rupture begins at {} under {}{}, largest displacement {}", quantity(*rupture.onset, "s"),
+                  dead ? quantity(*rupture.pressure, "Pa") + " on the undeformed lumen, " : "",
+                  "a blood pressure of " + quantity(*rupture.blood_pressure, "Pa"),
+                  quantity(*rupture.max_displacement, "m", 3)));
 }
 
 void VesselRun::print_summary() {

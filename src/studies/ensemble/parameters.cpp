@@ -14,7 +14,7 @@ ParameterList declare(Parameters& p) {
       {.key = "ensemble.pressures",
        .target = &p.pressures,
        .unit = "Pa",
-       .meaning = "Pressures that every wall meets, each after the schedule, on the undeformed lumen as "
+       .meaning = "Pressures that every wall meets, each after the schedule, as "
                   "load.pressure: [\"100 mmHg\", \"150 mmHg\"]; or give lowest_pressure, highest_pressure "
                   "and pressure_count.",
        .range = Range::positive()},

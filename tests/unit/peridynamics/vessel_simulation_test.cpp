@@ -38,6 +38,16 @@ TEST(VesselSimulation, RecordsWhenTheWallBreaksAndUnderWhat) {
   EXPECT_EQ(*events.onset, simulation.time_at(before));
 }
 
+TEST(VesselSimulation, APressureThatFollowsTheWallIsABloodPressure) {
+  Parameters p = test::weak_vessel();
+  p.direction = LoadDirection::follower;
+  const SharedWall wall = make_wall(p);
+  VesselSimulation simulation(*wall, parallel::Communicator::world());
+  LoadSource load;
+  rupture(simulation, load);
+  EXPECT_EQ(*simulation.rupture().blood_pressure, *simulation.rupture().pressure);
+}
+
 TEST(VesselSimulation, PassesTheFlagsOfItsCallerOn) {
   test::MadeVessel made;
   LoadSource load;
