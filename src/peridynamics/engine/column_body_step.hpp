@@ -44,7 +44,7 @@ void ColumnBody<Law, Real>::prepare_forces(std::vector<ThreadEvents>& per_thread
     halo_.start(u);
     halo_.finish(u);
   }
-  if (!follower_.none()) follower_.find_forces({u[0], u[1], u[2]});
+  if (!follower_.none()) follower_.find_forces({u[0], u[1], u[2]}, displacement_.frame().wrapped());
 }
 
 /// The sum of 16 numbers, in an order that compilers find vectors in.

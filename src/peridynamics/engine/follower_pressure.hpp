@@ -25,12 +25,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "parallel/threads.hpp"
 #include "peridynamics/engine/body_setup.hpp"
 #include "peridynamics/engine/bond_storage.hpp"
 #include "peridynamics/engine/domain.hpp"
+#include "peridynamics/engine/following_frame.hpp"
+#include "peridynamics/laws/numbers.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -58,8 +61,8 @@ class FollowerPressure {
   /// Memory that this takes on all ranks.
   static double bytes(const BodySize& size) {
     if (size.lumen_nodes == 0) return 0;
-    const double row_weights = size.thinned ? 2 * size.particles() * sizeof(double) : 0;
-    return 9 * size.lumen_nodes * size.rows * sizeof(double) + size.blocks() * sizeof(std::uint16_t) +
+    const double row_weights = size.thinned ? 2 * size.particles() * sizeof(Real) : 0;
+    return 9 * size.lumen_nodes * size.rows * sizeof(Real) + size.blocks() * sizeof(std::uint16_t) +
            row_weights;
   }
 
@@ -69,17 +72,10 @@ class FollowerPressure {
   /// By how much the load on a particle can exceed that on the undeformed wall.
   double largest_growth() const { return none() ? 1 : longest_stretch_ * longest_stretch_; }
 
-  /// Finds the forces for the displacement `u` (padded, halo filled, in spacings).
-  void find_forces(std::array<const Real*, 3> u) {
-    parallel::for_each_share(threads_, nodes_.size(), [&](int, std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) find_place(n, u);
-    });
-    parallel::for_each_share(threads_, own_nodes_, [&](int, std::size_t begin, std::size_t end) {
-      for (std::size_t n = begin; n < end; ++n) {
-        find_depth(n, u);
-        find_node_forces(n);
-      }
-    });
+  /// Finds the forces for the displacement `u` (padded, halo filled, in spacings; `wrapped` as by
+  /// FollowingFrame).
+  void find_forces(std::array<const Real*, 3> u, bool wrapped) {
+    wrapped ? find_all<true>(u) : find_all<false>(u);
   }
 
   /// Force per volume (1/m, for a pressure of 1) on each row of a block of a loaded column; 0 on loose
@@ -87,32 +83,41 @@ class FollowerPressure {
   void load(RowBlock b, BondStorage<Real>& bonds, double (&load)[3][block_rows]) {
     if (bonds.take_loosened(b)) loose_[domain_->number(b)] = bonds.rows_without_bonds(b);
     const std::int64_t row = b.block * block_rows;
-    const int rows = domain_->rows_in(b.block);
-    const double per_volume = 1 / setup_->lattice.volume(domain_->global_column(b.slot));
+    const double spacing = setup_->lattice.spacing;
+    const double per_volume = spacing * spacing / setup_->lattice.volume(domain_->global_column(b.slot));
     for (int k = 0; k < 3; ++k) {
-      double* const out = load[k];
-      std::fill_n(out, block_rows, 0.0);
+      Real sums[block_rows] = {};
       const auto slot = static_cast<std::size_t>(b.slot);
       for (std::size_t i = first_place_[slot]; i < first_place_[slot + 1]; ++i) {
-        const double* const area = area_[k].data() + index(places_[i].node, row);
-        const double* const spread = spread_[k].data() + index(places_[i].node, row);
+        const Real* const area = area_[k].data() + index(places_[i].node, row);
+        const Real* const spread = spread_[k].data() + index(places_[i].node, row);
         with_weights(places_[i].member, row, [&](const auto& weight, const auto& share) {
-          for (int lane = 0; lane < rows; ++lane)
-            out[lane] += per_volume * (weight(lane) * area[lane] + share(lane) * spread[lane]);
+          for (std::size_t lane = 0; lane < block_rows; lane += lanes())
+            (X::load(sums + lane) + weight(lane) * X::load(area + lane) +
+             share(lane) * X::load(spread + lane))
+                .store(sums + lane);
         });
       }
+      for (int lane = 0; lane < block_rows; ++lane)
+        load[k][lane] = per_volume * static_cast<double>(sums[lane]);
       for (unsigned loose = loose_[domain_->number(b)]; loose != 0; loose &= loose - 1)
-        out[std::countr_zero(loose)] = 0;
+        load[k][std::countr_zero(loose)] = 0;
     }
   }
 
  private:
-  using Vectors = std::array<std::vector<double>, 3>;  ///< [nodes][stride()]
+  using D = hn::CappedTag<Real, block_rows>;
+  using X = Lanes<D>;
+  static std::size_t lanes() { return hn::Lanes(D()); }
+
+  using Vectors = std::array<std::vector<Real>, 3>;  ///< [nodes][stride()]
   struct Vector {
-    double x, y, z;
-    double squared() const { return x * x + y * y + z * z; }
+    X x, y, z;
+    friend HWY_INLINE Vector operator-(const Vector& a, const Vector& b) {
+      return {a.x - b.x, a.y - b.y, a.z - b.z};
+    }
+    HWY_INLINE X squared() const { return x * x + y * y + z * z; }
   };
-  static Vector minus(const Vector& a, const Vector& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
   /// Numbers of nodes and members are local ones.
   struct Node {
@@ -121,35 +126,35 @@ class FollowerPressure {
     std::size_t first_member = 0, past_member = 0;
   };
   struct Member {
-    std::size_t values;           ///< index of its first owned row in padded arrays
-    std::array<double, 3> place;  ///< m, (x, y, 0)
-    double weight, share;
+    std::size_t values;         ///< index of its first owned row in padded arrays
+    std::array<Real, 3> place;  ///< spacings, (x, y, 0)
+    Real weight, share;
   };
   /// What an owned column is to a node.
   struct Place {
     std::size_t node, member;
   };
 
-  /// Values of a node: the owned rows, and one more at either end.
-  std::size_t stride() const { return static_cast<std::size_t>(domain_->layout().row_count) + 2; }
+  /// Values of a node: a row before the owned ones, these, and at least one after them; whole vectors fit in.
+  std::size_t stride() const { return static_cast<std::size_t>((domain_->blocks() + 1) * block_rows); }
   std::size_t index(std::size_t node, std::int64_t row) const {
     return node * stride() + static_cast<std::size_t>(row + 1);
   }
   Vectors make_vectors(std::size_t nodes) const {
-    const std::vector<double> component(nodes * stride());
+    const std::vector<Real> component(nodes * stride());
     return {component, component, component};
   }
 
-  /// Calls `use(weight, share)` with functions of how far a row is behind `row`.
+  /// Calls `use(weight, share)` with functions of how far the first row of a vector is behind `row`.
   template <class Use>
   void with_weights(std::size_t member, std::int64_t row, const Use& use) const {
     if (row_weights_.empty()) {
-      use([w = members_[member].weight](std::ptrdiff_t) { return w; },
-          [s = members_[member].share](std::ptrdiff_t) { return s; });
+      use([w = X(members_[member].weight)](std::size_t) { return w; },
+          [s = X(members_[member].share)](std::size_t) { return s; });
     } else {
       const std::size_t first = index(member, row);
-      use([w = row_weights_.data() + first](std::ptrdiff_t i) { return w[i]; },
-          [s = row_shares_.data() + first](std::ptrdiff_t i) { return s[i]; });
+      use([w = row_weights_.data() + first](std::size_t i) { return X::load(w + i); },
+          [s = row_shares_.data() + first](std::size_t i) { return X::load(s + i); });
     }
   }
 
@@ -181,6 +186,7 @@ class FollowerPressure {
     }
     std::vector<std::vector<Place>> places(static_cast<std::size_t>(l.column_count));
     const CrossSection& section = setup_->lattice.section;
+    const double spacing = setup_->lattice.spacing;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       nodes_[n].first_member = members_.size();
       for (const LumenSurface::Member& m : surface.of(nodes_[n].global)) {
@@ -188,9 +194,9 @@ class FollowerPressure {
         if (n < own_nodes_ && owned(m))
           places[static_cast<std::size_t>(m.column - l.first_column)].push_back({n, members_.size()});
         members_.push_back({.values = domain_->padded(domain_->slot(m.column)),
-                            .place = {section.x[c], section.y[c], 0},
-                            .weight = m.weight,
-                            .share = m.share});
+                            .place = {Real(section.x[c] / spacing), Real(section.y[c] / spacing), 0},
+                            .weight = Real(m.weight),
+                            .share = Real(m.share)});
       }
       nodes_[n].past_member = members_.size();
     }
@@ -206,42 +212,74 @@ class FollowerPressure {
     row_weights_.resize(members_.size() * stride());
     row_shares_.resize(members_.size() * stride());
     const std::int64_t rows = domain_->layout().rows;
-    std::vector<std::array<double, 2>> points;
-    std::vector<double> shares;
+    std::size_t first = 0;  // of a node's members
     for (const Node& node : nodes_) {
+      const auto members = setup_->lumen.of(node.global);
       for (std::int64_t row = -1; row <= domain_->layout().row_count; ++row) {
         const double z = setup_->lattice.height((domain_->layout().first_row + row + rows) % rows);
-        points.clear();
-        shares.clear();
-        double total = 0;
-        for (std::size_t m = node.first_member; m < node.past_member; ++m) {
-          const auto& [x, y, unused] = members_[m].place;
-          points.push_back({x, y});
-          shares.push_back(members_[m].share * setup_->thin_spots.load_share(x, y, z));
-          total += shares.back();
-        }
-        for (double& share : shares) share /= total;
-        const std::vector<double> weights = extrapolation_weights(points, shares, setup_->inner_radius);
-        for (std::size_t j = 0; j < shares.size(); ++j) {
-          row_shares_[index(node.first_member + j, row)] = shares[j];
-          row_weights_[index(node.first_member + j, row)] = weights[j];
+        const auto [shares, weights] = shares_and_weights(members, z);
+        for (std::size_t j = 0; j < members.size(); ++j) {
+          row_shares_[index(first + j, row)] = static_cast<Real>(shares[j]);
+          row_weights_[index(first + j, row)] = static_cast<Real>(weights[j]);
         }
       }
+      first += members.size();
     }
   }
 
-  /// Displacement (m) of a node in all rows.
+  std::pair<std::vector<double>, std::vector<double>> shares_and_weights(
+      std::span<const LumenSurface::Member> members, double z) const {
+    const CrossSection& section = setup_->lattice.section;
+    std::vector<std::array<double, 2>> points;
+    std::vector<double> shares;
+    double total = 0;
+    for (const LumenSurface::Member& m : members) {
+      const auto c = static_cast<std::size_t>(m.column);
+      points.push_back({section.x[c], section.y[c]});
+      shares.push_back(m.share * setup_->thin_spots.load_share(section.x[c], section.y[c], z));
+      total += shares.back();
+    }
+    for (double& share : shares) share /= total;
+    return {shares, extrapolation_weights(points, shares, setup_->inner_radius)};
+  }
+
+  template <bool wrapped>
+  void find_all(std::array<const Real*, 3> u) {
+    parallel::for_each_share(threads_, nodes_.size(), [&](int, std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) find_place<wrapped>(n, u);
+    });
+    parallel::for_each_share(threads_, own_nodes_, [&](int, std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) {
+        find_depth<wrapped>(n, u);
+        find_node_forces<wrapped>(n);
+      }
+    });
+  }
+
+  /// The difference of two displacements that are known up to whole periods where they are wrapped.
+  template <bool wrapped>
+  static HWY_INLINE X apart(X there, X here) {
+    const X difference = there - here;
+    if constexpr (!wrapped) return difference;
+    return difference - round(difference * Real(1 / wrap_period)) * Real(wrap_period);
+  }
+
+  /// Displacement of a node in all rows, as a mean of its members'.
+  template <bool wrapped>
   void find_place(std::size_t n, std::array<const Real*, 3> u) {
     const ColumnLayout& l = domain_->layout();
-    const auto count = static_cast<std::ptrdiff_t>(stride());
+    const auto count = static_cast<std::size_t>(l.row_count) + 2;
+    const std::size_t first = nodes_[n].first_member;
     for (std::size_t k = 0; k < 3; ++k) {
-      double* const out = place_[k].data() + index(n, -1);
-      std::fill_n(out, count, 0.0);
-      for (std::size_t m = nodes_[n].first_member; m < nodes_[n].past_member; ++m) {
+      Real* const out = place_[k].data() + index(n, -1);
+      const Real* const of_first = u[k] + members_[first].values - 1;
+      std::copy_n(of_first, stride(), out);
+      for (std::size_t m = first + 1; m < nodes_[n].past_member; ++m) {
         const Real* const in = u[k] + members_[m].values - 1;
         with_weights(m, -1, [&](const auto& weight, const auto&) {
-          for (std::ptrdiff_t i = 0; i < count; ++i)
-            out[i] += weight(i) * (setup_->lattice.spacing * static_cast<double>(in[i]));
+          for (std::size_t i = 0; i < count; i += lanes())
+            (X::load(out + i) + weight(i) * apart<wrapped>(X::load(in + i), X::load(of_first + i)))
+                .store(out + i);
         });
       }
       if (domain_->periodic()) continue;
@@ -252,18 +290,23 @@ class FollowerPressure {
     }
   }
 
-  /// Puts the way (m) from an own node to the mean of its layer into `spread_`, in the owned rows.
+  /// Puts the way from an own node to the mean of its layer into `spread_`.
+  template <bool wrapped>
   void find_depth(std::size_t n, std::array<const Real*, 3> u) {
-    const auto rows = static_cast<std::ptrdiff_t>(domain_->layout().row_count);
+    const auto rows = static_cast<std::size_t>(domain_->layout().row_count);
+    const std::size_t first = nodes_[n].first_member;
     for (std::size_t k = 0; k < 3; ++k) {
-      double* const out = spread_[k].data() + index(n, 0);
-      std::fill_n(out, rows, 0.0);
-      for (std::size_t m = nodes_[n].first_member; m < nodes_[n].past_member; ++m) {
+      Real* const out = spread_[k].data() + index(n, 0);
+      const Real* const of_first = u[k] + members_[first].values;
+      std::fill_n(out, stride() - block_rows, Real{0});
+      for (std::size_t m = first + 1; m < nodes_[n].past_member; ++m) {
         const Real* const in = u[k] + members_[m].values;
-        const double place = members_[m].place[k];
+        const X place = members_[m].place[k] - members_[first].place[k];
         with_weights(m, 0, [&](const auto& weight, const auto& share) {
-          for (std::ptrdiff_t i = 0; i < rows; ++i)
-            out[i] += (share(i) - weight(i)) * (place + setup_->lattice.spacing * static_cast<double>(in[i]));
+          for (std::size_t i = 0; i < rows; i += lanes()) {
+            const X way = place + apart<wrapped>(X::load(in + i), X::load(of_first + i));
+            (X::load(out + i) + (share(i) - weight(i)) * way).store(out + i);
+          }
         });
       }
     }
@@ -275,72 +318,96 @@ class FollowerPressure {
     Vector p, q, pq;
 
     /// 1; 0 where an edge along p or q is longer than allowed (squares of lengths).
-    double present(double longest_p, double longest_q) const {
-      const bool whole = (p.squared() < longest_p) & (minus(pq, q).squared() < longest_p) &
-                         (q.squared() < longest_q) & (minus(pq, p).squared() < longest_q);
-      return whole ? 1.0 : 0.0;
+    HWY_INLINE X present(X longest_p, X longest_q) const {
+      const X along_p = max(p.squared(), (pq - q).squared()), along_q = max(q.squared(), (pq - p).squared());
+      return where(along_p < longest_p, where(along_q < longest_q, X(Real{1})));
     }
     /// 12 times the node's share of the vector area: the integral of its shape function over the normals of
     /// the bilinear patch.
-    Vector area() const {
-      const Vector d = minus(p, q);
+    HWY_INLINE Vector area() const {
+      const Vector d = p - q;
       return {(p.y * q.z - p.z * q.y) + (d.y * pq.z - d.z * pq.y),
               (p.z * q.x - p.x * q.z) + (d.z * pq.x - d.x * pq.z),
               (p.x * q.y - p.y * q.x) + (d.x * pq.y - d.y * pq.x)};
     }
   };
 
+  /// The sum over a node's patches that are not torn.
+  struct NodeArea {
+    X patches = Real{0};                     ///< how many
+    Vector area{Real{0}, Real{0}, Real{0}};  ///< 12 times the vector area
+
+    HWY_INLINE void add(const Patch& patch, X longest_p, X longest_q) {
+      const X present = patch.present(longest_p, longest_q);
+      const Vector a = patch.area();
+      patches = patches + present;
+      area = {area.x + present * a.x, area.y + present * a.y, area.z + present * a.z};
+    }
+  };
+
+  static HWY_INLINE Vector vector_at(const Real* const (&u)[3], std::size_t i) {
+    return {X::load(u[0] + i), X::load(u[1] + i), X::load(u[2] + i)};
+  }
+  /// The way between nodes that are displaced by `here` and `there`, `edge` and `up` apart in the undeformed
+  /// wall.
+  template <bool wrapped>
+  static HWY_INLINE Vector way(const Vector& here, const Vector& there, const std::array<Real, 3>& edge,
+                               Real up) {
+    return {X(edge[0]) + apart<wrapped>(there.x, here.x), X(edge[1]) + apart<wrapped>(there.y, here.y),
+            X(up) + apart<wrapped>(there.z, here.z)};
+  }
+
   /// Makes `area_` and `spread_` of an own node.
+  template <bool wrapped>
   void find_node_forces(std::size_t n) {
     const LumenSurface& surface = setup_->lumen;
     const Node& node = nodes_[n];
+    const double spacing = setup_->lattice.spacing;
     const auto chord = [&](std::int32_t to) {
       const auto& a = surface.nodes[static_cast<std::size_t>(node.global)];
       const auto& b = surface.nodes[static_cast<std::size_t>(to)];
-      return Vector{b[0] - a[0], b[1] - a[1], 0};
+      return std::array{Real((b[0] - a[0]) / spacing), Real((b[1] - a[1]) / spacing), Real{0}};
     };
-    const Vector none{0, 0, 0}, forth = chord(surface.next(node.global)),
-                                back = chord(surface.previous(node.global));
-    const double rise = setup_->lattice.row_spacing, longest = longest_stretch_ * longest_stretch_;
-    const double longest_forth = longest * forth.squared(), longest_back = longest * back.squared(),
-                 longest_rise = longest * rise * rise;
-    const double factor = surface.area_factor / 12;
+    const std::array<Real, 3> none{}, forth = chord(surface.next(node.global)),
+                                      back = chord(surface.previous(node.global));
+    const Real rise = Real(setup_->lattice.row_spacing / spacing);
+    const auto longest = [&](const std::array<Real, 3>& edge, Real up) {
+      return X(Real(longest_stretch_ * longest_stretch_) * (edge[0] * edge[0] + edge[1] * edge[1] + up * up));
+    };
+    const X longest_forth = longest(forth, 0), longest_back = longest(back, 0),
+            longest_rise = longest(none, rise);
+    const X factor = Real(surface.area_factor / 12);
     const std::array<double, 2> undeformed = surface.undeformed_area(node.global);
-    const double quarter_area = 0.25 * rise * std::hypot(undeformed[0], undeformed[1]);
-
-    const double* const ux = place_[0].data();
-    const double* const uy = place_[1].data();
-    const double* const uz = place_[2].data();
-    double* __restrict const ax = area_[0].data();
-    double* __restrict const ay = area_[1].data();
-    double* __restrict const az = area_[2].data();
-    double* __restrict const dx = spread_[0].data();
-    double* __restrict const dy = spread_[1].data();
-    double* __restrict const dz = spread_[2].data();
+    const X quarter_area = Real(0.25 * rise * std::hypot(undeformed[0], undeformed[1]) / spacing);
     const std::size_t to_next = (node.next - n) * stride(), to_previous = (node.previous - n) * stride();
-    for (std::size_t i = index(n, 0); i < index(n, domain_->layout().row_count); ++i) {
-      const auto to = [&](std::size_t other, const Vector& apart, double up) {
-        return Vector{apart.x + (ux[other] - ux[i]), apart.y + (uy[other] - uy[i]), up + (uz[other] - uz[i])};
-      };
+    const Real* const u[3] = {place_[0].data(), place_[1].data(), place_[2].data()};
+
+    const std::size_t first = index(n, 0), past = index(n, domain_->layout().row_count);
+    for (std::size_t i = first; i < past; i += lanes()) {
+      const Vector here = vector_at(u, i);
       const std::size_t e = i + to_next, w = i + to_previous;
-      const Vector east = to(e, forth, 0), west = to(w, back, 0), north = to(i + 1, none, rise),
-                   south = to(i - 1, none, -rise);
-      const Patch north_east{east, north, to(e + 1, forth, rise)},
-          north_west{north, west, to(w + 1, back, rise)}, south_west{west, south, to(w - 1, back, -rise)},
-          south_east{south, east, to(e - 1, forth, -rise)};
-      const double ne = north_east.present(longest_forth, longest_rise),
-                   nw = north_west.present(longest_rise, longest_back),
-                   sw = south_west.present(longest_back, longest_rise),
-                   se = south_east.present(longest_rise, longest_forth);
-      const Vector a = north_east.area(), b = north_west.area(), c = south_west.area(), d = south_east.area();
-      const double depth = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
-      const double spread = quarter_area * (ne + nw + sw + se) / (depth > 0 ? std::sqrt(depth) : 1.0);
-      dx[i] *= spread;
-      dy[i] *= spread;
-      dz[i] *= spread;
-      ax[i] = factor * ((ne * a.x + nw * b.x) + (sw * c.x + se * d.x)) - dx[i];
-      ay[i] = factor * ((ne * a.y + nw * b.y) + (sw * c.y + se * d.y)) - dy[i];
-      az[i] = factor * ((ne * a.z + nw * b.z) + (sw * c.z + se * d.z)) - dz[i];
+      const Vector east = way<wrapped>(here, vector_at(u, e), forth, 0),
+                   west = way<wrapped>(here, vector_at(u, w), back, 0),
+                   north = way<wrapped>(here, vector_at(u, i + 1), none, rise),
+                   south = way<wrapped>(here, vector_at(u, i - 1), none, -rise);
+      NodeArea node_area;
+      node_area.add({east, north, way<wrapped>(here, vector_at(u, e + 1), forth, rise)}, longest_forth,
+                    longest_rise);
+      node_area.add({north, west, way<wrapped>(here, vector_at(u, w + 1), back, rise)}, longest_rise,
+                    longest_back);
+      node_area.add({west, south, way<wrapped>(here, vector_at(u, w - 1), back, -rise)}, longest_back,
+                    longest_rise);
+      node_area.add({south, east, way<wrapped>(here, vector_at(u, e - 1), forth, -rise)}, longest_rise,
+                    longest_forth);
+      const Vector depth{X::load(&spread_[0][i]), X::load(&spread_[1][i]), X::load(&spread_[2][i])};
+      const X shallowest = Real(1e-30);  // of no depth, where a layer has one radius
+      const X spread = quarter_area * node_area.patches / sqrt(max(depth.squared(), shallowest));
+      const X spreads[3] = {spread * depth.x, spread * depth.y, spread * depth.z},
+              areas[3] = {node_area.area.x, node_area.area.y, node_area.area.z};
+      for (std::size_t k = 0; k < 3; ++k) {
+        spreads[k].store(&spread_[k][i]);
+        (factor * areas[k] - spreads[k]).store(&area_[k][i]);
+      }
     }
   }
 
@@ -351,11 +418,11 @@ class FollowerPressure {
   std::vector<Node> nodes_;     ///< own nodes, then neighbours of theirs
   std::size_t own_nodes_ = 0;
   std::vector<Member> members_;
-  std::vector<double> row_weights_, row_shares_;  ///< [members][stride()]; empty: the same in all rows
+  std::vector<Real> row_weights_, row_shares_;  ///< [members][stride()]; empty: the same in all rows
   std::vector<Place> places_;
   std::vector<std::size_t> first_place_;  ///< [owned columns + 1]
-  Vectors place_;                         ///< m, displacement of nodes
-  Vectors area_, spread_;                 ///< m2, of own nodes: A - A0 d/|d| and A0 d/|d|
+  Vectors place_;                         ///< spacings, displacement of nodes
+  Vectors area_, spread_;                 ///< square spacings, of own nodes: A - A0 d/|d| and A0 d/|d|
   std::vector<std::uint16_t> loose_;      ///< [blocks] rows without an intact bond, of loaded columns
 };
 
