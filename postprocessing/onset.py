@@ -14,9 +14,10 @@ PAPER = ("lattice", "none", "paper")
 
 
 def settings(scheme):
-    """Overrides that give a run this cross-section, surface correction and layer."""
+    """Overrides that give a run this cross-section, surface correction and layer, and the paper's scheme the paper's dead load."""
     keys = ("discretisation.cross_section", "discretisation.surface_correction", "load.layer")
-    return [f"{key}={value}" for key, value in zip(keys, scheme)]
+    direction = "dead" if scheme == PAPER else "follower"
+    return [*(f"{key}={value}" for key, value in zip(keys, scheme)), f"load.direction={direction}"]
 
 
 def run(build, *overrides, addition=""):

@@ -68,13 +68,17 @@ void VesselRun::print_header() {
   session_.print_surroundings();
 }
 
-void VesselRun::print_onset(const peridynamics::RuptureEvents& rupture) {
+std::string VesselRun::pressures_at_onset(double pressure, double blood_pressure, int digits) const {
   const bool dead = c_.wall->parameters.direction == peridynamics::LoadDirection::dead;
-  session_.console().line(
-      fmt::format("  rupture begins at {} under {}{}, largest displacement {}", quantity(*rupture.onset, "s"),
-                  dead ? quantity(*rupture.pressure, "Pa") + " on the undeformed lumen, " : "",
-                  "a blood pressure of " + quantity(*rupture.blood_pressure, "Pa"),
-                  quantity(*rupture.max_displacement, "m", 3)));
+  return (dead ? quantity(pressure, "Pa", digits) + " on the undeformed lumen, " : "") +
+         "a blood pressure of " + quantity(blood_pressure, "Pa", digits);
+}
+
+void VesselRun::print_onset(const peridynamics::RuptureEvents& rupture) {
+  session_.console().line(fmt::format("  rupture begins at {} under {}, largest displacement {}",
+                                      quantity(*rupture.onset, "s"),
+                                      pressures_at_onset(*rupture.pressure, *rupture.blood_pressure, 4),
+                                      quantity(*rupture.max_displacement, "m", 3)));
 }
 
 void VesselRun::print_summary() {
@@ -86,10 +90,10 @@ void VesselRun::print_summary() {
   session_.console().item(
       "rupture",
       r.rupture_onset_s
-          ? fmt::format("begins at {} (damage {} somewhere) under a blood pressure of {}, {} long "
-                        "at the end",
+          ? fmt::format("begins at {} (damage {} somewhere) under {}, {} long at the end",
                         at(r.rupture_onset_s), peridynamics::rupture_damage,
-                        quantity(*r.blood_pressure_at_onset_Pa, "Pa", 3), quantity(*r.rupture_length_m, "m"))
+                        pressures_at_onset(*r.pressure_at_onset_Pa, *r.blood_pressure_at_onset_Pa, 3),
+                        quantity(*r.rupture_length_m, "m"))
           : "none");
   session_.console().item(
       "at the end",

@@ -43,6 +43,8 @@ class VesselRun {
   void open_results();
   std::optional<output::PointSeriesPlan> series_plan();
   void print_header();
+  /// As the load means them: a dead one in both ways.
+  std::string pressures_at_onset(double pressure, double blood_pressure, int digits) const;
   void print_onset(const peridynamics::RuptureEvents& rupture);
   void start_at_equilibrium();
   void time_loop();
