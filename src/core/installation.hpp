@@ -28,7 +28,7 @@ inline std::filesystem::path installation_prefix() {
   const bool is_library = dladdr(&own_place, &holder) != 0 && holder.dli_fname != nullptr;
   // A program's own name may be relative to a folder that has changed since.
   if (is_library && *holder.dli_fname == '/') {
-    if (const auto prefix = prefix_above(holder.dli_fname); !prefix.empty()) return prefix;
+    if (auto prefix = prefix_above(holder.dli_fname); !prefix.empty()) return prefix;
   }
   auto prefix = prefix_above("/proc/self/exe");
   return prefix.empty() ? std::filesystem::path(configured_prefix) : prefix;

@@ -104,6 +104,8 @@ std::vector<double> carried_haematocrit(const network::Graph& g, const GraphFlow
   double largest = 0;
   for (const double q : flow.flow) largest = std::max(largest, std::abs(q));
   Directed d = direct(g, flow, no_flow * largest);
+  // What the solver leaves at a junction does not enter the network there.
+  const double imbalance = no_flow * largest + flow.max_imbalance * flow.inflow;
   std::vector<double> haematocrit(g.vessels(), inflow_haematocrit);
   for (const std::uint32_t j : d.order) {
     const std::uint32_t begin = d.first[j], end = d.first[j + 1];
@@ -114,8 +116,7 @@ std::vector<double> carried_haematocrit(const network::Graph& g, const GraphFlow
     const double enters = std::max(0.0, out - d.inflow[j]);
     const double mixed = (d.cells[j] + enters * (entering.empty() ? inflow_haematocrit : entering[j])) /
                          (d.inflow[j] + enters);
-    const bool bifurcates =
-        end - begin == 2 && d.arrivals[j] == 1 && enters <= no_flow * largest + 1e-9 * out;
+    const bool bifurcates = end - begin == 2 && d.arrivals[j] == 1 && enters <= imbalance + 1e-9 * out;
     for (std::uint32_t k = begin; k < end; ++k) haematocrit[d.vessel[k]] = mixed;
     if (bifurcates && mixed > 0) {
       const std::uint32_t a = d.vessel[begin], b = d.vessel[begin + 1];

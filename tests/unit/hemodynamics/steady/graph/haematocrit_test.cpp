@@ -104,6 +104,26 @@ TEST(Haematocrit, SymmetricBifurcationsChangeNothing) {
   for (const double h : r.haematocrit) EXPECT_NEAR(h, 0.45, 1e-12);
 }
 
+TEST(Haematocrit, WhatTheSolverLeavesAtABifurcationIsNoInflow) {
+  network::Graph g;
+  g.junctions = 4;
+  g.from = {0, 1, 1};
+  g.to = {1, 2, 3};
+  g.radius = {8e-6, 5e-6, 6e-6};
+  g.length = {1e-4, 1e-4, 1e-4};
+  GraphFlow flow;
+  flow.pressure = {4000, 3000, 2000, 2000};
+  flow.flow = {1e-14, 3e-15, 7e-15};
+  flow.inflow = 1e-14;
+  const std::vector<double> exact = carried_haematocrit(g, flow, 0.45);
+  EXPECT_LT(exact[1], 0.43);  // the bifurcation does separate
+  EXPECT_GT(exact[2], 0.455);
+  flow.flow[2] += 1e-7 * flow.inflow;
+  flow.max_imbalance = 1e-7;
+  const std::vector<double> found = carried_haematocrit(g, flow, 0.45);
+  for (std::size_t v = 0; v < 3; ++v) EXPECT_NEAR(found[v], exact[v], 1e-6) << v;
+}
+
 TEST(Haematocrit, NotConvergingIsReportedAndCellsAreConservedAllTheSame) {
   const Problem p = random_tree(6);
   HaematocritOptions options;
