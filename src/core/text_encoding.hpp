@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/printable.hpp"
+
 namespace rhexis {
 
 /// Appends the UTF-8 bytes of a Unicode character.
@@ -51,14 +53,36 @@ inline std::string utf8_of_utf16(std::string_view bytes, bool big_endian) {
   return text;
 }
 
-/// `text` without the byte order mark of UTF-8, or translated from UTF-16 where it begins with one of those;
-/// lines that end in carriage returns alone (old Macintosh) end in line feeds.
+inline bool is_utf8(std::string_view text) {
+  const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+  while (true) {
+    text.remove_prefix(
+        static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_ascii) - text.begin()));
+    if (text.empty()) return true;
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+}
+
+/// Bytes that each are the number of a Unicode character, as UTF-8.
+inline std::string utf8_of_latin1(std::string_view bytes) {
+  std::string text;
+  text.reserve(bytes.size());
+  for (const char c : bytes) append_utf8(text, static_cast<unsigned char>(c));
+  return text;
+}
+
+/// `text` without the byte order mark of UTF-8, or translated from UTF-16 where it begins with one of those,
+/// or from Latin 1 (as spreadsheets write where no Unicode is asked for) where it is no UTF-8; lines that end
+/// in carriage returns alone (old Macintosh) end in line feeds.
 inline std::string plain_text(std::string text) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
     text = utf8_of_utf16(std::string_view(text).substr(2), text.front() == '\xfe');
   } else if (text.starts_with("\xef\xbb\xbf")) {
     text.erase(0, 3);
   }
+  if (!is_utf8(text)) text = utf8_of_latin1(text);
   if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
   return text;
 }

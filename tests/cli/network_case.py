@@ -10,6 +10,8 @@ import tempfile
 import unittest
 
 RHEXIS, SOURCE, *MPIRUN = sys.argv[1:]
+# With ParaView there are pictures, and VTK to read its files.
+HAS_PARAVIEW = "Catalyst" in subprocess.run([RHEXIS, "--version"], capture_output=True, text=True, check=True).stdout
 
 TREE = """\
 [scene]

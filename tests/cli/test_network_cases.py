@@ -1,44 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Networks as people have them, from file to flow: the flow of an independent solver, or a refusal that says why.
 
-The solver is dense elimination with Eq. (9) in Python. Run by ctest as: test_network_cases.py RHEXIS SOURCE_DIR MPIRUN...
+Run by ctest as: test_network_cases.py RHEXIS SOURCE_DIR MPIRUN...
 """
 
 import csv
 import math
 import random
-import subprocess
 import sys
 import unittest
 
-import numpy
-
-from network_case import RHEXIS, NetworkCase
-
-VTK = "Catalyst" in subprocess.run([RHEXIS, "--version"], capture_output=True, text=True, check=True).stdout
-MMHG, UM, MM, CM = 133.322387415, 1e-6, 1e-3, 1e-2  # Pa, m
-NL_PER_MIN = 1e-12 / 60  # m3/s
-VISCOSITY = 3.5e-3  # Pa s, the program's default
-EXACT = 1e-9  # the largest relative error: conditions and lengths have rounding in their units
-
-
-def solve(vessels, pressures, inflows=None):
-    """Flows (m3/s) of vessels (from, to, radius, length; m), given pressures (Pa) and inflows (m3/s) at junctions."""
-    names = sorted({end for vessel in vessels for end in vessel[:2]})
-    number = {name: i for i, name in enumerate(names)}
-    matrix, right = numpy.zeros((len(names), len(names))), numpy.zeros(len(names))
-    conductance = [math.pi * radius**4 / (8 * VISCOSITY * length) for _, _, radius, length in vessels]
-    for (a, b, _, _), g in zip(vessels, conductance):
-        a, b = number[a], number[b]
-        matrix[[a, b], [a, b]] += g
-        matrix[[a, b], [b, a]] -= g
-    for name, inflow in (inflows or {}).items():
-        right[number[name]] = inflow
-    for name, pressure in pressures.items():
-        matrix[number[name]] = 0
-        matrix[number[name], number[name]], right[number[name]] = 1, pressure
-    p = numpy.linalg.solve(matrix, right)
-    return [g * (p[number[a]] - p[number[b]]) for (a, b, _, _), g in zip(vessels, conductance)]
+from independent_flow import CM, EXACT, MM, MMHG, NL_PER_MIN, UM, solve
+from network_case import HAS_PARAVIEW, NetworkCase
 
 
 def pressures(**of_junctions):
@@ -178,7 +151,7 @@ class NetworkCases(NetworkCase):
 
     def test_flows_are_those_of_an_independent_solver(self):
         for name, files, keys, flow, told in SOLVED:
-            if name.startswith("legacy") and not VTK:
+            if name.startswith("legacy") and not HAS_PARAVIEW:
                 continue
             with self.subTest(name):
                 self.scene(files, keys)

@@ -5,14 +5,11 @@ Run by ctest as: test_network_files.py RHEXIS SOURCE_DIR MPIRUN...
 """
 
 import os
-import subprocess
 import sys
 import unittest
 import unittest.mock
 
-from network_case import FILES, JUNCTIONS, RHEXIS, SOURCE, VESSELS, NetworkCase
-
-PICTURES = "Catalyst" in subprocess.run([RHEXIS, "--version"], capture_output=True, text=True, check=True).stdout
+from network_case import FILES, HAS_PARAVIEW, JUNCTIONS, SOURCE, VESSELS, NetworkCase
 
 # name, junctions, vessels, message
 WRONG_FILES = [
@@ -140,7 +137,7 @@ class NetworkFiles(NetworkCase):
             self.assertIn(message, result.stderr)
         self.assertEqual(self.rhexis("network", "j.csv", "v.csv", "-o", "clean.json", "--overwrite").returncode, 0)
 
-    @unittest.skipUnless(PICTURES, "built without ParaView")
+    @unittest.skipUnless(HAS_PARAVIEW, "built without ParaView")
     def test_a_picture_of_a_network(self):
         import numpy
         from matplotlib import image
@@ -181,7 +178,7 @@ class NetworkFiles(NetworkCase):
         with unittest.mock.patch.dict(os.environ, {"RHEXIS_PLUGIN_DIR": "/none"}):
             result = self.rhexis("network", "j.csv", "v.csv", "--picture", "p.png", ranks=2)
         self.assert_refused(result, ["--picture: there can be no picture"], "no plugin", files)
-        if PICTURES:
+        if HAS_PARAVIEW:
             result = self.rhexis("network", "k.csv", "w.csv", "--picture", "p.png")
             self.assert_refused(result, ["--picture: the junctions have no coordinates"], "no coordinates", files)
         self.write("p.png", "")

@@ -10,7 +10,7 @@
 #include "core/format.hpp"
 #include "core/memory.hpp"
 #include "hemodynamics/poiseuille.hpp"
-#include "network/survey/plausibility.hpp"
+#include "network/condition_limits.hpp"
 #include "network/tree/tree_pair.hpp"
 #include "parallel/node.hpp"
 #include "parallel/together.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -179,6 +180,7 @@ class Reader {
   BoundedGraph read() {
     const std::string junctions = list_called({"junctions", "vertices", "nodes"}),
                       vessels = list_called({"vessels", "edges"});
+    refuse_without_radii(vessels);
     each(junctions, junction_columns(), [&](Record& record) { builder_.add_junction(record); });
     each(vessels, vessel_columns(), [&](Record& record) { builder_.add_vessel(record); });
     std::vector<std::string> others;
@@ -200,6 +202,25 @@ class Reader {
       throw InputError(file_ +
                        ": the input of a 0-D solver, whose vessels are resistances; a network needs of every "
                        "vessel id, from, to and radius, and of every junction its id");
+  }
+
+  /// Where no vessel at all has a radius, the file means something else: told once, with what it has.
+  void refuse_without_radii(const std::string& vessels) const {
+    std::vector<std::string> others;
+    for (const Json& vessel : document_[vessels]) {
+      if (!vessel.is_object()) return;  // told with its number
+      for (const auto& member : vessel.items()) {
+        const Column* column = find_column(vessel_columns(), member.key());
+        if (column != nullptr && (column->name == "radius" || column->name == "diameter")) return;
+        if (column == nullptr && std::ranges::find(others, member.key()) == others.end())
+          others.push_back(member.key());
+      }
+    }
+    if (document_[vessels].empty()) return;
+    throw InputError(
+        fmt::format("{}: no member of {} is called radius or diameter; members that are not "
+                    "known: {}",
+                    file_, vessels, fmt::join(others, ", ")));
   }
 
   /// The first of these members that there is, which must be a list.

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "network/condition_limits.hpp"
 #include "network/connectivity.hpp"
 #include "network/names.hpp"
 
@@ -123,6 +124,9 @@ void NetworkBuilder::add_condition(const JunctionRow& row, std::uint32_t junctio
   }
   using Kind = BoundaryCondition::Kind;
   if (row.pressure || row.flow) {
+    const std::string problem = row.pressure ? impossible_condition(Kind::pressure, *row.pressure)
+                                             : impossible_condition(Kind::flow, *row.flow);
+    if (!problem.empty()) refuse(where, "junction " + row.id + ": " + problem);
     network_.conditions.push_back({.junction = junction,
                                    .kind = row.pressure ? Kind::pressure : Kind::flow,
                                    .value = row.pressure ? *row.pressure : *row.flow,

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "network/condition_limits.hpp"
 #include "network/lines/line_merging.hpp"
 #include "network/lines/line_reading.hpp"
 
@@ -137,6 +138,8 @@ void Reading::add_condition(const Array& array, BoundaryCondition::Kind kind) {
   for (std::size_t p = 0; p < lines_.points(); ++p) {
     if (std::isnan(known[p])) continue;
     if (has_condition_[p] != 0) fail(fmt::format("point {}: both a pressure and a flow condition", p));
+    if (const std::string problem = impossible_condition(kind, known[p]); !problem.empty())
+      fail(fmt::format("point {}: {}", p, problem));
     has_condition_[p] = 1;
     condition_.push_back({static_cast<std::uint32_t>(p), kind, known[p], 0});
   }

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "network/condition_limits.hpp"
 #include "network/connectivity.hpp"
 #include "network/names.hpp"
 
@@ -116,6 +117,11 @@ void check(const std::vector<EndCondition>& conditions) {
       throw InputError("give the pressure behind it too", key_of(i, "resistance"));
     if (!c.pressure && !c.flow && !c.haematocrit)
       throw InputError("give a pressure, a flow or a haematocrit there", key_of(i, "junction"));
+    using Kind = BoundaryCondition::Kind;
+    const std::string problem = c.pressure ? impossible_condition(Kind::pressure, *c.pressure)
+                                : c.flow   ? impossible_condition(Kind::flow, *c.flow)
+                                           : std::string();
+    if (!problem.empty()) throw InputError(problem, key_of(i, c.pressure ? "pressure" : "flow"));
   }
 }
 

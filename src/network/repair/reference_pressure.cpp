@@ -13,6 +13,8 @@
 namespace rhexis::network {
 namespace {
 
+constexpr double rounding = 1e-12;  ///< of flows that sum to zero as they are written, of the inflow
+
 /// What flows at the conditions of a part, m3/s.
 struct PartFlows {
   bool has_pressure = false;
@@ -58,11 +60,14 @@ void set_reference_pressure(std::optional<double> pressure, BoundedGraph& networ
                       largest_flow_residual),
           "network.reference_pressure");
     BoundaryCondition& reference = *part.largest_outflow;
+    const std::string before = flow_text(reference.value), after = flow_text(reference.value - part.sum);
+    const bool differs = before != after && std::abs(part.sum) > rounding * part.inflow;
     network.notes.push_back(fmt::format(
         "only flows are known at the ends of the part of junction {}: junction {} has network.reference_"
-        "pressure, {}, and the flow there, {}, becomes {}, so that all sum to zero",
+        "pressure, {}{}",
         g.name_of_junction(first), g.name_of_junction(reference.junction), mmhg(*pressure),
-        flow_text(reference.value), flow_text(reference.value - part.sum)));
+        differs ? fmt::format(", and the flow there, {}, becomes {}, so that all sum to zero", before, after)
+                : std::string()));
     reference.kind = BoundaryCondition::Kind::pressure;
     reference.value = *pressure;
     used = true;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/faults.hpp"
@@ -15,23 +16,11 @@ namespace rhexis::network {
 namespace {
 
 constexpr double widest = 0.03, narrowest = 1e-6;             ///< m, radii
-constexpr double highest_pressure = 1e6;                      ///< Pa
 constexpr double least_share_of_distance = 0.05;              ///< of a length
 constexpr double rounding_of_lengths = 0.01;                  ///< relative
 constexpr double many_short_branches = 0.1;                   ///< share of all branches
 constexpr double capillary_radius = 10e-6;                    ///< m
 constexpr double capillary_pressure = 80 * pascals_per_mmhg;  ///< Pa
-
-/// Why a pressure (Pa) or a flow (m3/s) given at an end is none of blood in a vessel; empty: it may be.
-std::string impossible_condition(BoundaryCondition::Kind kind, double value) {
-  if (kind == BoundaryCondition::Kind::pressure && std::abs(value) > highest_pressure)
-    return fmt::format("a pressure of {}, beyond {}: is the unit right?", mmhg(value),
-                       mmhg(highest_pressure));
-  if (kind == BoundaryCondition::Kind::flow && std::abs(value) > largest_flow)
-    return fmt::format("a flow of {} L/min, beyond {} L/min: is the unit right?",
-                       text(value * litres_per_minute), text(largest_flow * litres_per_minute));
-  return {};
-}
 
 /// Items that are improbable alike, of which the first is told.
 struct Tally {
@@ -48,6 +37,7 @@ class Look {
 
   Improbable found() {
     for (std::size_t v = 0; v < g_.vessels(); ++v) look_at_vessel(v);
+    look_at_branches();
     look_at_conditions();
     faults_.raise();
     tell_radii();
@@ -60,11 +50,6 @@ class Look {
   void look_at_vessel(std::size_t v) {
     if (g_.radius[v] > widest) wide_.add(v);
     if (g_.radius[v] < narrowest) narrow_.add(v);
-    // A vessel that another one continues is a piece of a branch, which may be short.
-    if (degree_[g_.from[v]] != 2 && degree_[g_.to[v]] != 2) {
-      ++branches_;
-      if (g_.length[v] < g_.radius[v]) short_.add(v);
-    }
     if (g_.x.empty()) return;
     const double distance = distance_of_ends(v);
     if (g_.length[v] < least_share_of_distance * distance) {
@@ -73,6 +58,36 @@ class Look {
                               quantity(distance, "m")));
     } else if (g_.length[v] < (1 - rounding_of_lengths) * distance) {
       shorter_than_drawn_.add(v);
+    }
+  }
+
+  /// Vessels that continue each other, where no other one meets them, are a branch, whose pieces may be
+  /// short.
+  void look_at_branches() {
+    std::vector<std::uint32_t> before(g_.vessels());  // a vessel of the same branch, or the vessel itself
+    std::iota(before.begin(), before.end(), 0U);
+    const auto first_of = [&](std::uint32_t v) {
+      while (before[v] != v) v = before[v] = before[before[v]];
+      return v;
+    };
+    constexpr std::uint32_t none = 0xffffffff;
+    std::vector<std::uint32_t> met(g_.junctions, none);
+    for (std::uint32_t v = 0; v < g_.vessels(); ++v) {
+      for (const std::uint32_t j : {g_.from[v], g_.to[v]}) {
+        if (degree_[j] != 2) continue;
+        if (met[j] != none) {
+          const auto [low, high] = std::minmax({first_of(met[j]), first_of(v)});
+          before[high] = low;
+        }
+        met[j] = v;
+      }
+    }
+    std::vector<double> length(g_.vessels());
+    for (std::uint32_t v = 0; v < g_.vessels(); ++v) length[first_of(v)] += g_.length[v];
+    for (std::uint32_t v = 0; v < g_.vessels(); ++v) {
+      if (before[v] != v) continue;
+      ++branches_;
+      if (length[v] < g_.radius[v]) short_.add(v);
     }
   }
 
@@ -87,9 +102,6 @@ class Look {
       for (const std::uint32_t j : {g_.from[v], g_.to[v]}) radius[j] = std::max(radius[j], g_.radius[v]);
     for (std::size_t i = 0; i < network_.conditions.size(); ++i) {
       const BoundaryCondition& c = network_.conditions[i];
-      if (const std::string problem = impossible_condition(c.kind, c.value); !problem.empty())
-        faults_.add(
-            fmt::format("{}: junction {}: {}", network_.file, g_.name_of_junction(c.junction), problem));
       const bool is_pressure = c.kind == BoundaryCondition::Kind::pressure && c.resistance == 0;
       if (is_pressure && c.value > capillary_pressure && radius[c.junction] < capillary_radius)
         arterial_.add(i);
@@ -134,9 +146,9 @@ class Look {
     if (arterial_.count == 0) return;
     const BoundaryCondition& c = network_.conditions[arterial_.first];
     found_.warnings.push_back(fmt::format(
-        "{}: junction {}{}: {} at the end of a vessel narrower than {}, where blood has less: is the unit of "
+        "junction {}{}: {} at the end of a vessel narrower than {}, where blood has less: is the unit of "
         "lengths right?",
-        network_.file, g_.name_of_junction(c.junction), others(arterial_), mmhg(c.value),
+        g_.name_of_junction(c.junction), others(arterial_), mmhg(c.value),
         quantity(2 * capillary_radius, "m")));
   }
 

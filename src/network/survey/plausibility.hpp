@@ -5,13 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/format.hpp"
 #include "network/graph.hpp"
 
 namespace rhexis::network {
-
-/// The largest flow, m3/s, that is taken for one of blood: the heart of a blue whale pumps less.
-inline constexpr double largest_flow = 1000 / litres_per_minute;
 
 /// What is improbable, in sentences with how many vessels or ends are so and the first of them.
 struct Improbable {
@@ -21,8 +17,7 @@ struct Improbable {
 /// Warns of radii above 3 cm or below 1 um, of branches shorter than their radius where these are more than a
 /// tenth, and of pressures of arteries at ends of capillaries; notes lengths below the distance of the ends,
 /// as sketches have that are not drawn to scale. Throws InputError with every vessel that is shorter than a
-/// twentieth of that distance, and every pressure and flow at an end that no circulation has: vessels burst
-/// below 1 MPa, and flows are below `largest_flow`.
+/// twentieth of that distance.
 Improbable improbable(const BoundedGraph& network);
 
 }  // namespace rhexis::network

@@ -19,9 +19,10 @@ std::string counted(std::size_t count, const std::string& what) {
 }
 
 std::string range_text(const MeasureRange& range) {
-  if (range.least == range.largest) return quantity(range.least, "m") + " of all vessels";
-  return fmt::format("from {} (vessel {}) to {} (vessel {})", quantity(range.least, "m"), range.least_vessel,
-                     quantity(range.largest, "m"), range.largest_vessel);
+  const std::string least = quantity(range.least, "m"), largest = quantity(range.largest, "m");
+  if (least == largest) return least + " of all vessels";
+  return fmt::format("from {} (vessel {}) to {} (vessel {})", least, range.least_vessel, largest,
+                     range.largest_vessel);
 }
 
 std::string extent_text(const std::array<std::pair<double, double>, 3>& extent) {

@@ -55,6 +55,7 @@ TEST(CsvTable, ReadsOneTableInManyGuises) {
            std::string("id,wall_thickness [\xc2\xb5m],share [%]\na b,1.5,25\n7,-20,\n"),
            std::string("id,wall_thickness [um],share,,\na b,1.5,0.25,,\n7,-20,,,\n"),
            "\xef\xbb\xbf" + plain,
+           std::string("id,wall_thickness [\xb5m],share [%]\na b,1.5,25\n7,-20,\n"),  // Latin 1
            utf16(plain, false),
            utf16(plain, true),
            cr,

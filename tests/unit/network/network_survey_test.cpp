@@ -88,6 +88,8 @@ TEST(NetworkSurvey, RangesExtentAndWalls) {
   EXPECT_TRUE(has(lines, "extent: 20 mm x 10 mm x 0")) << lines;
   EXPECT_TRUE(has(lines, "the rules of [wall] assume one: b1, b2")) << lines;
   EXPECT_TRUE(has(lines, "note: two points were merged")) << lines;
+  network.graph.radius = {1.5e-3, 1.5e-3 * (1 + 1e-12), 1.5e-3};  // as lengths computed from places are
+  EXPECT_TRUE(has(all_lines(survey(network)), "radius: 1.5 mm of all vessels"));
 }
 
 TEST(NetworkSurvey, PartsAndWhyNothingFlowsInThem) {

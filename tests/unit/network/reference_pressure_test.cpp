@@ -35,6 +35,15 @@ TEST(ReferencePressure, StandsWhereMostFlowsOut) {
   ASSERT_EQ(network.notes.size(), 1u);
   EXPECT_NE(network.notes[0].find("junction 2 has network.reference_pressure, 7.501 mmHg"), std::string::npos)
       << network.notes[0];
+  EXPECT_EQ(network.notes[0].find("becomes"), std::string::npos) << network.notes[0];
+  // Flows that sum to zero as they are written leave a rounding; those that do not are told.
+  network = two_parts({0.1e-9, 0.2e-9, -0.3e-9});
+  set_reference_pressure(1000.0, network);
+  EXPECT_EQ(network.notes[0].find("becomes"), std::string::npos) << network.notes[0];
+  network = two_parts({3e-9, -1e-9, -1.999e-9});
+  set_reference_pressure(1000.0, network);
+  EXPECT_NE(network.notes[0].find("-119.9 uL/min, becomes -120 uL/min"), std::string::npos)
+      << network.notes[0];
 }
 
 TEST(ReferencePressure, FlowsThatDoNotSumToZeroAreRefusedWithTheirSum) {

@@ -100,6 +100,9 @@ TEST_F(Repair, ConditionsThatDoNotFitAreRefusedWithTheirKey) {
       {{a, {.nearest = {-1, 0, 0}, .pressure = 1}},
        {"condition[2].nearest", "junction a has a condition already, of condition[1]"}},
       {{{.junction = "b", .haematocrit = 0.1}}, {"condition[1].haematocrit", "neither"}},
+      {{a, {.junction = "b", .pressure = -2e6}},
+       {"condition[2].pressure", "a pressure of -1.5e+04 mmHg, beyond 7501 mmHg"}},
+      {{{.junction = "b", .flow = -1}}, {"condition[1].flow", "a flow of -6e+04 L/min, beyond 1000 L/min"}},
   };
   for (const auto& [conditions, expected] : mistakes) {
     Parameters p;
@@ -162,10 +165,14 @@ TEST_F(Repair, SlipsAreTold) {
   }
   refused([&] { improbable(vessel(1e-3, 1e-4, 0.1)); },
           {"v.csv:2: vessel 0: length 100 um, but its ends are 100 mm apart"});
-  refused([&] { improbable(vessel(1e-3, 0.1, 0.1, 2e6)); }, {"v.csv: junction 0: a pressure of"});
-  BoundedGraph n = vessel(1e-3, 0.1, 0.1);
-  n.conditions[0] = {.junction = 0, .kind = Kind::flow, .value = -1};
-  refused([&] { improbable(n); }, {"a flow of -6e+04 L/min, beyond 1000 L/min"});
+  // A branch in two pieces.
+  BoundedGraph n = vessel(5e-3, 2e-3, 2e-3);
+  n.graph.junctions = 3;
+  n.graph.x = {0, 2e-3, 4e-3}, n.graph.y = n.graph.z = {0, 0, 0};
+  n.graph.from = {0, 1}, n.graph.to = {1, 2}, n.graph.radius = {5e-3, 5e-3}, n.graph.length = {2e-3, 2e-3};
+  EXPECT_EQ(improbable(n).warnings.size(), 1u);
+  n.graph.radius = {3e-3, 3e-3};
+  EXPECT_EQ(improbable(n).warnings.size(), 0u);
 }
 
 }  // namespace

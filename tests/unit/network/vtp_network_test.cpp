@@ -191,10 +191,12 @@ TEST_F(VtpNetwork, RefusesWhatCrashesVtk) {
   const std::string integers =
       "<DataArray type=\"Int32\" Name=\"radius\" format=\"ascii\">1</DataArray></CellData>";
   const Case cases[] = {
-      {"NumberOfPoints=\"2\"", "NumberOfPoints=\"-1\"", {"VTK"}},
-      {"NumberOfPoints=\"2\"", "NumberOfPoints=\"-2147483648\"", {"VTK"}},
-      {"NumberOfVerts=\"0\"", "NumberOfVerts=\"4294967296\"", {"VTK", "tags"}},
-      {"NumberOfVerts=\"0\"", "NumberOfVerts=\"99999999999999\"", {"VTK", "tags"}},
+      {"NumberOfPoints=\"2\"", "NumberOfPoints=\"-1\"", {"NumberOfPoints = -1 is no number"}},
+      {"NumberOfPoints=\"2\"", "NumberOfPoints=\"-2147483648\"", {"NumberOfPoints = -2147483648"}},
+      {"NumberOfPoints=\"2\"", "NumberOfPoints=\"two\"", {"NumberOfPoints = two is no number"}},
+      {"NumberOfPoints=\"2\"", "NumberOfPoints=\"300\"", {"n.vtp"}},
+      {"NumberOfVerts=\"0\"", "NumberOfVerts=\"4294967296\"", {"4294967296", "bytes cannot hold"}},
+      {"NumberOfVerts=\"0\"", "NumberOfVerts=\"99999999999999\"", {"bytes cannot hold"}},
       {"NumberOfLines=\"1\"", "NumberOfLines=\"\"", {"no lines (but 2 points)"}},
       {"Name=\"radius\"",
        "Name=\"radius\" NumberOfComponents=\"4294967296\"",

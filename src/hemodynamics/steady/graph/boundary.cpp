@@ -84,8 +84,9 @@ std::string name_of_first(const network::Graph& graph, std::uint32_t junction) {
 void throw_floating(const std::string& junction) {
   throw InputError(
       "nothing sets the pressure in the part of the network that junction " + junction +
-      " belongs to: give one of its junctions a condition of pressure (network.drop leaves out parts "
-      "without any condition; network.reference_pressure serves those where flows are known)");
+      " belongs to: give one of its junctions a condition of pressure, in the file or by [[condition]] "
+      "(network.drop = [\"islands\"] leaves out parts without any condition; network.reference_pressure "
+      "serves those where flows are known)");
 }
 
 void throw_inflow_without_vessels(const std::string& junction) {

@@ -19,10 +19,12 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <set>
+#include <string>
 
 #include "network/files/vtp/child_process.hpp"
 #include "network/files/vtp/interface.hpp"
@@ -59,7 +61,9 @@ class XmlReader : public vtkXMLPolyDataReader {
   void CreateXMLParser() override { XMLParser = PromptParser::New(); }
 
   int ReadPrimaryElement(vtkXMLDataElement* data) override {
-    if (const std::string fault = fault_of(data); !fault.empty()) {
+    std::string fault = fault_of_counts(data);
+    if (fault.empty()) fault = fault_of(data);
+    if (!fault.empty()) {
       vtkErrorMacro(<< fault);
       return 0;
     }
@@ -67,6 +71,27 @@ class XmlReader : public vtkXMLPolyDataReader {
   }
 
  private:
+  /// A number of points or cells that is none, or that a file of this size cannot hold; empty: there is none.
+  std::string fault_of_counts(vtkXMLDataElement* data) {
+    constexpr std::uintmax_t most_compressed = 1024;  // of zlib, which VTK compresses with
+    const std::uintmax_t bytes = std::filesystem::file_size(GetFileName());
+    for (int i = 0; i < data->GetNumberOfNestedElements(); ++i) {
+      vtkXMLDataElement* piece = data->GetNestedElement(i);
+      for (const char* name :
+           {"NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfStrips", "NumberOfPolys"}) {
+        const char* given = piece->GetAttribute(name);
+        if (given == nullptr || *given == '\0') continue;  // 0 to VTK
+        const std::string told = std::string(name) + " = " + std::string(given).substr(0, 40);
+        vtkIdType count = 0;
+        if (piece->GetScalarAttribute(name, count) == 0 || count < 0)
+          return told + " is no number of points or cells";
+        if (static_cast<std::uintmax_t>(count) > most_compressed * bytes)
+          return told + ", which a file of " + std::to_string(bytes) + " bytes cannot hold";
+      }
+    }
+    return {};
+  }
+
   /// Faults in a list of arrays, or in those below it, that VTK does not see and that take it out of its
   /// memory or into a loop; empty: there are none.
   static std::string fault_of(vtkXMLDataElement* list) {
@@ -82,7 +107,7 @@ class XmlReader : public vtkXMLPolyDataReader {
       if (element->GetScalarAttribute("NumberOfComponents", components) != 0 &&
           (components < 1 || components > most_components))
         return "array " + name + " has " + std::to_string(components) + " components";
-      if (const std::string fault = fault_of(element); !fault.empty()) return fault;
+      if (std::string fault = fault_of(element); !fault.empty()) return fault;
     }
     return {};
   }
