@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of a vessel: displacement and damage of the same particles side by side, as in the paper's Fig. 1.
+"""The picture of a vessel: two fields of the same particles side by side; displacement and damage, as in the paper's
+Fig. 1, unless others are asked for.
 
-Used by vessel.py while the program runs and by postprocessing/render_particles.py on saved files.
+Used by vessel.py, stress.py and coupled.py while the program runs and by postprocessing/render_particles.py on saved
+files.
 Everything is derived from the particles: their box and spacing set the camera and the size of the spheres.
 
 Drawn with VTK itself: ParaView's views (paraview.simple) draw the same, but take two seconds longer to start and four
@@ -10,6 +12,7 @@ on each sphere and its pixels. So each rank leaves out what its other particles 
 """
 
 import math
+from dataclasses import dataclass
 
 import numpy
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -27,8 +30,30 @@ SPHERE = 1.2  # diameter of a sphere in spacings: neighbours touch, gaps between
 AZIMUTH, ELEVATION = math.radians(22.5), math.radians(28)  # of the camera, about the vessel's axis z
 LEGEND = 96  # pixels below each view, for its colour bar: fragments that fly about would lie under a bar within the view
 SLENDER = 4  # vessels longer than this many diameters lie down, one picture above the other
-DAMAGE_RANGE = 0.5  # a particle on the edge of a crack has lost about half of its bonds
 GREY_TO_RED = [(0.82, 0.82, 0.82), (0.98, 0.75, 0.55), (0.90, 0.33, 0.22), (0.45, 0.0, 0.05)]
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A field that a view shows: a vector by its length."""
+
+    field: str
+    title: str  # with the unit
+    factor: float = 1.0  # from the field's SI unit to that of the title
+    shades: tuple = tuple(VIRIDIS)
+    space: str = "RGB"  # in which shades are mixed
+    bottom: float = 0.0  # of the colours
+    top: float = None  # of the colours; None: that of the largest value so far, rounded up
+    whole_wall_only: bool = False  # the largest value is that of particles that have lost no bond
+
+    def values(self, particles):
+        values = column(particles, self.field)
+        return self.factor * (values if values.ndim == 1 else numpy.sqrt(numpy.einsum("ij,ij->i", values, values)))
+
+
+DISPLACEMENT = Shown("displacement", "Displacement (mm)", 1e3)
+# A particle on the edge of a crack has lost about half of its bonds.
+DAMAGE = Shown("damage", "Damage (fraction)", shades=tuple(GREY_TO_RED), space="Lab", top=0.5)
 
 
 def column(particles, name):
@@ -59,9 +84,10 @@ def measure(particles):
 
 
 class VesselPicture:
-    """Two views of the same particles from the same side: by displacement on the left (or above), beside it by damage."""
+    """Two views of the same particles from the same side: one field on the left (or above), another beside it."""
 
-    def __init__(self, particles):
+    def __init__(self, particles, shown=(DISPLACEMENT, DAMAGE), cut_open=False):
+        """`cut_open`: without the half of the vessel that is nearer to the camera, so that the lumen is seen."""
         low, high, spacing = measure(particles)
         self.radius = 0.5 * max(high[0] - low[0], high[1] - low[1])
         self.length = high[2] - low[2]
@@ -69,7 +95,9 @@ class VesselPicture:
         self.upright = self.length < SLENDER * 2 * self.radius
         self.width = WIDTH // 2 if self.upright else WIDTH  # pixels of one view, without its colour bar
         self.height = (HEIGHT if self.upright else HEIGHT // 2) - LEGEND
-        self.largest_mm = 0.0
+        self.shown = shown
+        self.cut_open = cut_open
+        self.largest = [0.0 for _ in shown]
         self._choose_camera()
         self.sphere_pixels = max(2.5, SPHERE * spacing / (2 * self.scale) * self.height)
         self.window = None  # of the first rank
@@ -82,20 +110,17 @@ class VesselPicture:
 
     def rows(self, particles, step, time_s, pressure_pa=None, note=""):
         """The picture of this moment [HEIGHT, WIDTH, 3] on the first rank, None on the others. Collective."""
-        damage = column(particles, "damage")
-        position, displacement = column(particles, "position"), column(particles, "displacement")
+        damage, position = column(particles, "damage"), column(particles, "position")
+        values = [shown.values(particles) for shown in self.shown]
         there = ~numpy.isnan(damage)  # where a thin spot leaves no particle, its damage is not a number
+        if self.cut_open:
+            there &= (position - column(particles, "displacement") - self.centre) @ self.toward_camera <= 0
         if not there.all():
-            position, displacement, damage = position[there], displacement[there], damage[there]
+            position, damage, values = position[there], damage[there], [v[there] for v in values]
         position = position.astype(numpy.float32)
-        displacement_mm = 1e3 * numpy.sqrt(numpy.einsum("ij,ij->i", displacement, displacement))
-        largest_mm, most_damage = reduce_over_ranks(
-            [displacement_mm.max(initial=0.0), damage.max(initial=0.0)], vtkCommunicator.MAX_OP
-        )
-        top = self._displacement_range(largest_mm)
+        tops = self._tops(values, damage)
         seen = self._seen(position)
-        table = numpy.column_stack([position[seen], displacement_mm[seen], damage[seen]]).astype(numpy.float32)
-        table = gather(table)
+        table = gather(numpy.column_stack([position[seen], *(v[seen] for v in values)]).astype(numpy.float32))
         if table is None:
             return None
         if self.window is None:
@@ -103,9 +128,8 @@ class VesselPicture:
         pressure = "" if pressure_pa is None else f"      p = {pressure_pa / 1e3:.1f} kPa"
         self.moment.SetInput(f"t = {time_s * 1e3:.3f} ms{pressure}{note}")
         self.step.SetInput(f"step {step}")
-        self._set_displacement_range(top)
-        self.displacement_legend.SetDrawAboveRangeSwatch(largest_mm > top)
-        self.damage_legend.SetDrawAboveRangeSwatch(most_damage > DAMAGE_RANGE)
+        for view, (largest, top) in zip(self.views, tops):
+            view.set_top(top, largest > top)
         self._set_particles(table)
         self.window.Render()
         pixels = vtkUnsignedCharArray()
@@ -120,18 +144,31 @@ class VesselPicture:
         radius = 0.5 * self.sphere_pixels
         return visible(up + 0.5 * self.height, across + 0.5 * self.width, depth, radius, self.height, self.width)
 
-    def _displacement_range(self, largest_mm):
-        """Zero to the largest displacement so far, rounded up (1, 2, 5, 10 ...), so that few frames of a
-        movie change it; at most the vessel's radius, lest flying fragments hide the rest."""
-        radius_mm = 1e3 * self.radius
-        self.largest_mm = max(self.largest_mm, largest_mm, 0.01 * radius_mm)
-        return min(round_up(self.largest_mm), round_up(radius_mm))
+    def _tops(self, values, damage):
+        """The largest value at this moment and the top of the colours, of each view. Collective.
+
+        The top is rounded up (1, 2, 5, 10 ...) from the largest value so far, so that few frames of a movie change it;
+        that of displacement is the vessel's radius at most, lest flying fragments hide the rest."""
+        whole = damage == 0
+        largest = [(v[whole] if s.whole_wall_only else v).max(initial=0.0) for s, v in zip(self.shown, values)]
+        largest = reduce_over_ranks(largest, vtkCommunicator.MAX_OP)
+        self.largest = numpy.maximum(self.largest, largest)
+        return list(zip(largest, map(self._top, self.shown, self.largest)))
+
+    def _top(self, shown, largest):
+        if shown.top is not None:
+            return shown.top
+        if shown.field == "displacement":
+            radius = shown.factor * self.radius
+            return min(round_up(max(largest, 0.01 * radius)), round_up(radius))
+        return shown.bottom + round_up(max(largest - shown.bottom, 1e-3))
 
     def _choose_camera(self):
         """Parallel projection, so that lengths can be compared; looking down on the vessel's end a little."""
         self.sight = numpy.array(
             [math.cos(ELEVATION) * math.cos(AZIMUTH), math.cos(ELEVATION) * math.sin(AZIMUTH), math.sin(ELEVATION)]
         )
+        self.toward_camera = numpy.array([math.cos(AZIMUTH), math.sin(AZIMUTH), 0.0])  # across the axis
         axis = numpy.array([0.0, 0.0, 1.0])
         along = axis - axis.dot(self.sight) * self.sight
         along /= numpy.linalg.norm(along)
@@ -153,16 +190,12 @@ class VesselPicture:
         self.window.SetMultiSamples(0)
         self.window.SetSize(WIDTH, HEIGHT)
         corners = [(0, 0), (WIDTH // 2, 0)] if self.upright else [(0, HEIGHT // 2), (0, 0)]  # pixels, bottom left
-        first, second = [self._view(left, bottom + LEGEND) for left, bottom in corners]
-        below_first, below_second = [self._layer(left, bottom, LEGEND) for left, bottom in corners]
-        self.displacement_colours = colours(VIRIDIS, "RGB")
-        damage_colours = colours(GREY_TO_RED, "Lab")
-        damage_colours.SetRange(0.0, DAMAGE_RANGE)
-        self.displacement_bodies = self._body(first, self.displacement_colours)
-        self.damage_bodies = self._body(second, damage_colours)
-        self.displacement_legend = self._legend(self.displacement_colours, "Displacement (mm)", below_first)
-        self.damage_legend = self._legend(damage_colours, "Damage (fraction)", below_second)
-        set_labels(self.damage_legend, DAMAGE_RANGE)
+        layers = [self._view(left, bottom + LEGEND) for left, bottom in corners]
+        below = [self._layer(left, bottom, LEGEND) for left, bottom in corners]
+        self.views = [
+            _View(*parts, self.sphere_pixels, self.width) for parts in zip(self.shown, layers, below, strict=True)
+        ]
+        first, second = layers
         self.moment = text(first, 22, (0.01, 0.98))
         self.step = text(second, 22, (0.99, 0.98))
         self.step.GetTextProperty().SetJustificationToRight()
@@ -190,62 +223,14 @@ class VesselPicture:
         camera.SetClippingRange(0.1 * distance, 1.9 * distance)  # VTK would look for one in each picture
         return view
 
-    def _body(self, view, colours):
-        """Spheres at points that come later."""
-        body = vtkPolyData()
-        mapper = vtkPolyDataMapper()
-        mapper.SetInputData(body)
-        mapper.SetLookupTable(colours)
-        mapper.UseLookupTableScalarRangeOn()
-        actor = vtkActor()
-        actor.SetMapper(mapper)
-        looks = actor.GetProperty()
-        looks.SetRenderPointsAsSpheres(True)
-        looks.SetPointSize(self.sphere_pixels)
-        # One light from above the camera, without VTK's general sums over lights: saves a quarter of the time.
-        light = "max(0.0, dot(normalVCVSOutput, vec3(0.17, 0.5, 0.85)))"
-        shading = f"gl_FragData[0] = vec4((0.35 + 0.7 * {light}) * diffuseColor, 1.0);"
-        actor.GetShaderProperty().AddFragmentShaderReplacement("//VTK::Light::Impl", True, shading, False)
-        view.AddActor(actor)
-        return body
-
     def _set_particles(self, table):
         points = vtkPoints()
         points.SetData(numpy_to_vtk(numpy.ascontiguousarray(table[:, :3]), deep=True))
         numbers = numpy.arange(len(table) + 1, dtype=numpy.int32)
         vertices = vtkCellArray()
         vertices.SetData(numpy_to_vtk(numbers, True, VTK_INT), numpy_to_vtk(numbers[:-1], True, VTK_INT))
-        for body, values in ((self.displacement_bodies, table[:, 3]), (self.damage_bodies, table[:, 4])):
-            body.SetPoints(points)
-            body.SetVerts(vertices)
-            body.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(values), deep=True))
-
-    def _set_displacement_range(self, top):
-        if self.displacement_colours.GetRange()[1] == top:
-            return
-        self.displacement_colours.SetRange(0.0, top)
-        set_labels(self.displacement_legend, top)
-
-    def _legend(self, colours, title, below):
-        bar = vtkScalarBarActor()
-        bar.SetLookupTable(colours)
-        colours.SetAboveRangeColor(*colours.GetTableValue(colours.GetNumberOfTableValues() - 1))
-        colours.UseAboveRangeColorOn()
-        bar.SetAboveRangeAnnotation("more")
-        bar.UnconstrainedFontSizeOn()
-        for style in (bar.GetLabelTextProperty(), bar.GetAnnotationTextProperty()):
-            plain(style, 18)
-        bar.SetOrientationToHorizontal()
-        bar.SetLabelFormat("%g")
-        bar.SetBarRatio(0.4)
-        width = 320 / self.width
-        bar.SetPosition(0.5 - width / 2, 0.25)  # what is written of values beyond comes below
-        bar.SetWidth(width)
-        bar.SetHeight(0.5)
-        title = text(below, 18, (0.5, 0.78), title)
-        title.GetTextProperty().SetJustificationToCentered()
-        below.AddActor2D(bar)
-        return bar
+        for number, view in enumerate(self.views):
+            view.set_particles(points, vertices, table[:, 3 + number])
 
     def _scale_bar(self, view):
         """A line of a round length at the bottom left, with its length in millimetres above."""
@@ -265,10 +250,73 @@ class VesselPicture:
         text(view, 18, (0.03, 0.05), f"{1e3 * length:g} mm")
 
 
-def set_labels(bar, top):
+class _View:
+    """Particles in the colours of one field, with the colour bar below them."""
+
+    def __init__(self, shown, layer, below, sphere_pixels, width):
+        self.bottom, self.top = shown.bottom, None
+        self.colours = colours(shown.shades, shown.space)
+        self.body = self._make_body(layer, sphere_pixels)
+        self.legend = self._make_legend(shown.title, below, width)
+
+    def set_particles(self, points, vertices, values):
+        self.body.SetPoints(points)
+        self.body.SetVerts(vertices)
+        self.body.GetPointData().SetScalars(numpy_to_vtk(numpy.ascontiguousarray(values), deep=True))
+
+    def set_top(self, top, more):
+        """`more`: some values are beyond `top`."""
+        self.legend.SetDrawAboveRangeSwatch(more)
+        if self.top != top:
+            self.top = top
+            self.colours.SetRange(self.bottom, top)
+            set_labels(self.legend, self.bottom, top)
+
+    def _make_body(self, layer, sphere_pixels):
+        """Spheres at points that come later."""
+        body = vtkPolyData()
+        mapper = vtkPolyDataMapper()
+        mapper.SetInputData(body)
+        mapper.SetLookupTable(self.colours)
+        mapper.UseLookupTableScalarRangeOn()
+        actor = vtkActor()
+        actor.SetMapper(mapper)
+        looks = actor.GetProperty()
+        looks.SetRenderPointsAsSpheres(True)
+        looks.SetPointSize(sphere_pixels)
+        # One light from above the camera, without VTK's general sums over lights: saves a quarter of the time.
+        light = "max(0.0, dot(normalVCVSOutput, vec3(0.17, 0.5, 0.85)))"
+        shading = f"gl_FragData[0] = vec4((0.35 + 0.7 * {light}) * diffuseColor, 1.0);"
+        actor.GetShaderProperty().AddFragmentShaderReplacement("//VTK::Light::Impl", True, shading, False)
+        layer.AddActor(actor)
+        return body
+
+    def _make_legend(self, title, below, width):
+        bar = vtkScalarBarActor()
+        bar.SetLookupTable(self.colours)
+        self.colours.SetAboveRangeColor(*self.colours.GetTableValue(self.colours.GetNumberOfTableValues() - 1))
+        self.colours.UseAboveRangeColorOn()
+        bar.SetAboveRangeAnnotation("more")
+        bar.UnconstrainedFontSizeOn()
+        for style in (bar.GetLabelTextProperty(), bar.GetAnnotationTextProperty()):
+            plain(style, 18)
+        bar.SetOrientationToHorizontal()
+        bar.SetLabelFormat("%g")
+        bar.SetBarRatio(0.4)
+        share = 320 / width
+        bar.SetPosition(0.5 - share / 2, 0.25)  # what is written of values beyond comes below
+        bar.SetWidth(share)
+        bar.SetHeight(0.5)
+        title = text(below, 18, (0.5, 0.78), title)
+        title.GetTextProperty().SetJustificationToCentered()
+        below.AddActor2D(bar)
+        return bar
+
+
+def set_labels(bar, bottom, top):
     labels = vtkDoubleArray()
     for fifth in range(6):
-        labels.InsertNextValue(top * fifth / 5)
+        labels.InsertNextValue(bottom + (top - bottom) * fifth / 5)
     bar.SetCustomLabels(labels)
     bar.UseCustomLabelsOn()
 

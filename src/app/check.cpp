@@ -29,11 +29,10 @@ namespace {
 /// Seconds one step of the whole body takes on these ranks, from a few steps of a short piece of it.
 double seconds_per_step(const peridynamics::WallModel& wall, parallel::Communicator comm) {
   constexpr int timed_steps = 10;
-  peridynamics::BodySetup piece = wall.setup;
-  piece.lattice.rows = std::min<std::int64_t>(wall.lattice().rows, peridynamics::timed_rows * comm.size());
-  piece.ends = peridynamics::EndCondition::free;
-  const double share = static_cast<double>(piece.lattice.rows) / static_cast<double>(wall.lattice().rows);
-  const auto body = peridynamics::make_body(std::move(piece), comm);
+  const std::int64_t rows =
+      std::min<std::int64_t>(wall.lattice().rows, peridynamics::timed_rows * comm.size());
+  const double share = static_cast<double>(rows) / static_cast<double>(wall.lattice().rows);
+  const auto body = peridynamics::make_piece(wall, rows, comm);
   body->advance(0, 0);  // warms caches and pages
   const double start = seconds_now();
   for (int i = 0; i < timed_steps; ++i) body->advance(0, 0);
@@ -65,32 +64,32 @@ void print_particles(runtime::Console& console, const peridynamics::WallModel& w
       fmt::format("{} = {} columns x {} rows{}", grouped(wall.particles()), lattice.section.size(),
                   lattice.rows,
                   absent > 0 ? fmt::format(" less the {} that thin spots leave out", grouped(absent)) : ""));
-  console.item("bonds",
-               fmt::format("{}{}, at most {} a particle", absent > 0 ? "fewer than " : "",
-                           grouped(peridynamics::count_bonds(lattice, wall.families(), wall.is_periodic())),
-                           peridynamics::largest_family(lattice, wall.families(), wall.is_periodic())));
+  const peridynamics::BondCount bonds = peridynamics::count_bonds(wall);
+  console.item("bonds", fmt::format("{}{}, at most {} a particle", absent > 0 ? "fewer than " : "",
+                                    grouped(bonds.total), bonds.largest_family));
 }
 
 void print_accuracy(runtime::Console& console, const peridynamics::WallModel& wall,
                     parallel::Communicator comm) {
   // On one rank: on each it would take memory of its own.
   std::optional<peridynamics::ElasticError> error;
-  parallel::on_root<RunError>(comm,
-                              [&] { error = peridynamics::elastic_error(wall.parameters, wall.setup); });
+  parallel::on_root<RunError>(comm, [&] { error = peridynamics::elastic_error(wall); });
   const std::string found =
       error ? fmt::format("{:.2g} % off Lame's static expansion, evenly over the wall to {:.2g} %",
                           100 * error->relative_l2, 100 * error->spread)
             : "not estimated: a wall so thin, of so many columns, takes too long to solve";
-  console.item("accuracy", fmt::format("{} (surface correction {}, layer {})", found,
-                                       name_of(peridynamics::surface_correction(wall.parameters)),
-                                       name_of(wall.parameters.layer)));
+  console.item("accuracy", wall.by_gradient()
+                               ? found
+                               : fmt::format("{} (surface correction {}, layer {})", found,
+                                             name_of(peridynamics::surface_correction(wall.parameters)),
+                                             name_of(wall.parameters.layer)));
   console.item("strength", peridynamics::describe_strength(wall.parameters));
 }
 
 void print_time_step(runtime::Console& console, const peridynamics::WallModel& wall,
                      parallel::Communicator comm) {
   double limit = 0;
-  parallel::on_root<RunError>(comm, [&] { limit = peridynamics::linear_time_step_limit(wall.setup); });
+  parallel::on_root<RunError>(comm, [&] { limit = peridynamics::linear_time_step_limit(wall); });
   console.item("time step",
                fmt::format("{} ({:.0f} % of the stable {}), {} steps", quantity(wall.time.step, "s"),
                            100 * wall.time.step / wall.time.stable, quantity(wall.time.stable, "s"),

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/format.hpp"
 
 namespace rhexis::output {
 
-ParameterList declare(Parameters& p, std::vector<std::string> fields) {
-  p.fields = fields;
+ParameterList declare(Parameters& p, std::vector<std::string> usual, std::vector<std::string> known) {
+  p.fields = std::move(usual);
   return {
       {.key = "output.every_steps",
        .target = &p.every_steps,
@@ -25,9 +26,11 @@ ParameterList declare(Parameters& p, std::vector<std::string> fields) {
        .range = Range::positive()},
       {.key = "output.fields",
        .target = &p.fields,
-       .meaning = "Fields stored of every particle beside its position; an empty list stores no particles.",
+       .meaning =
+           "Fields stored of every particle beside its position; an empty list stores no particles. Those of "
+           "stress and stretch are known of laws by deformation gradient.",
        .source = "Sec. 3.4",
-       .choices = fields},
+       .choices = std::move(known)},
       {.key = "output.precision", .target = &p.precision, .meaning = "Of the values stored of particles."},
       declare_format(p),
       {.key = "output.checkpoint_every",

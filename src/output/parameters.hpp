@@ -31,8 +31,8 @@ struct Parameters {
   double frames_per_second = 12;
 };
 
-/// The keys, bound to `p`; `fields` are the names that output.fields may list.
-ParameterList declare(Parameters& p, std::vector<std::string> fields);
+/// The keys, bound to `p`; output.fields lists the `usual` names unless others of the `known` ones are given.
+ParameterList declare(Parameters& p, std::vector<std::string> usual, std::vector<std::string> known);
 
 /// The one key, of those, that says how a network is stored as well.
 Parameter declare_format(Parameters& p);

@@ -13,6 +13,13 @@
 
 namespace rhexis::peridynamics {
 
+namespace {
+
+/// Laws of bonds, which columns of particles run.
+const Condition laws_of_bonds{"material.law", {"\"pmb\"", "\"fung\"", "\"lps\""}};
+
+}  // namespace
+
 ParameterList declare(Parameters& p) {
   ParameterList all{
       {.key = "vessel.inner_radius",
@@ -49,7 +56,8 @@ ParameterList declare(Parameters& p) {
        .default_in = "MPa",
        .meaning = "Young's modulus of the wall.",
        .source = "Table 2, Eq. (4)",
-       .range = Range::positive()},
+       .range = Range::positive(),
+       .only_with = {{"material.law", {"\"pmb\"", "\"fung\"", "\"lps\"", "\"neo_hookean\""}}}},
       {.key = "material.critical_stretch",
        .target = &p.critical_stretch,
        .unit = "1",
@@ -97,9 +105,10 @@ ParameterList declare(Parameters& p) {
       {.key = "discretisation.horizon_ratio",
        .target = &p.horizon_ratio,
        .unit = "1",
-       .meaning = "Horizon in spacings where horizon is \"auto\".",
+       .meaning = "Horizon in spacings where horizon is \"auto\"; \"auto\" is 3.5, with a law by "
+                  "deformation gradient 2.2.",
        .source = "Sec. 3.3",
-       .range = Range::between(2, 8),
+       .range = Range::between(1.6, 8),
        .only_with = {{"discretisation.horizon", {"\"auto\""}}}},
       {.key = "discretisation.lattice_shift",
        .target = &p.lattice_shift,
@@ -173,13 +182,15 @@ ParameterList declare(Parameters& p) {
        .meaning = "Body force of the pressure in the innermost layer of the wall: nonlocal (distributed as "
                   "bonds pull that a surface cuts, resultant exactly P 2 pi r0 L), consistent (the same "
                   "everywhere, resultant exact) or paper (P / thickness).",
-       .source = "Eq. (8)"},
+       .source = "Eq. (8)",
+       .only_with = {laws_of_bonds}},
       {.key = "load.layer_thickness",
        .target = &p.layer_thickness,
        .unit = "m",
        .meaning = "Thickness of the loaded layer, from r0 outwards; \"auto\" is one horizon.",
        .source = "Eq. (8)",
-       .range = Range::positive()},
+       .range = Range::positive(),
+       .only_with = {laws_of_bonds}},
       {.key = "load.venting",
        .target = &p.venting,
        .meaning = "After rupture: none (the load goes on, as in the paper) or orifice "
@@ -251,6 +262,12 @@ ParameterList declare_start(Parameters& p) {
   };
 }
 
+void scale_stiffness(Parameters& p, double factor) {
+  p.young_modulus *= factor;
+  for (WallLayer& layer : p.law.wall.layers) layer.shear_modulus *= factor;
+  for (FibreFamily& family : p.law.wall.fibres) family.k1 *= factor;
+}
+
 double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles) {
   const double wall_area = std::numbers::pi * (outer_radius * outer_radius - inner_radius * inner_radius);
   return std::cbrt(wall_area * length / particles);
@@ -271,12 +288,12 @@ void resolve_spacing(Parameters& p) {
     p.spacing =
         constant_number_spacing(p.inner_radius, p.outer_radius, p.length, static_cast<double>(*p.particles));
   }
-  if (!p.horizon) p.horizon = p.horizon_ratio * *p.spacing;
-  const double ratio = *p.horizon / *p.spacing;
-  if (ratio < 2) {
-    throw InputError("the horizon is " + text(ratio) +
-                         " spacings; at least 2 are needed (3 to 4 are usual), here " +
-                         quantity(2 * *p.spacing, "m"),
+  if (!p.horizon) p.horizon = p.horizon_ratio.value_or(p.law.by_gradient() ? 2.2 : 3.5) * *p.spacing;
+  const double ratio = *p.horizon / *p.spacing, least = p.law.by_gradient() ? 1.6 : 2;
+  if (ratio < least) {
+    throw InputError("the horizon is " + text(ratio) + " spacings; at least " + text(least) +
+                         " are needed (" + (p.law.by_gradient() ? "2.2 is" : "3 to 4 are") +
+                         " usual), here " + quantity(least * *p.spacing, "m"),
                      "discretisation.horizon");
   }
   if (ratio > 8) {
@@ -348,6 +365,21 @@ void resolve_ends(Parameters& p) {
   p.spots.period = p.ends == EndCondition::axial_periodic ? p.length : INFINITY;
 }
 
+/// Throws InputError for what the general engine does not have.
+void check_general(const Parameters& p) {
+  const auto refuse = [&](bool given, const char* key, const char* instead) {
+    if (given) throw InputError("not with material.law = \"" + p.law.name + "\"" + instead, key);
+  };
+  refuse(p.cross_section != Arrangement::polar, "discretisation.cross_section", "; take \"polar\"");
+  refuse(p.surface_correction != SurfaceCorrection::automatic, "discretisation.surface_correction",
+         ", whose gradients are exact up to the surface; leave it out");
+  refuse(p.ends == EndCondition::axial_periodic, "boundary.ends",
+         "; take \"clamped\", \"sliding\" or \"free\"");
+  refuse(!p.spots.list.empty(), "spot.position", "");
+  refuse(p.scatter.critical_stretch > 0, "scatter.critical_stretch", "");
+  refuse(p.scatter.stiffness > 0, "scatter.stiffness", "");
+}
+
 }  // namespace
 
 std::vector<std::string> resolve(Parameters& p) {
@@ -363,8 +395,12 @@ std::vector<std::string> resolve(Parameters& p) {
     throw InputError("\"calibrated\" needs discretisation.cross_section = \"polar\"",
                      "discretisation.surface_correction");
   }
+  if (p.law.by_gradient()) check_general(p);
   resolve_spacing(p);
   resolve_critical_stretch(p);
+  if (!p.law.wall.layers.empty())
+    p.young_modulus = 2 * (1 + p.law.poisson_ratio) *
+                      std::ranges::max(p.law.wall.layers, {}, &WallLayer::shear_modulus).shear_modulus;
   if (p.length < *p.spacing) throw InputError("the vessel is shorter than one spacing", "vessel.length");
   resolve_load(p);
   if (p.equilibrium_pressure > 0) p.schedule_start = time_of_pressure(p, p.equilibrium_pressure);

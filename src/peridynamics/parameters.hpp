@@ -91,8 +91,8 @@ struct Parameters {
   SurfaceCorrection surface_correction = SurfaceCorrection::automatic;
   std::optional<double> spacing;  ///< m
   std::optional<std::int64_t> particles;
-  std::optional<double> horizon;  ///< m
-  double horizon_ratio = 3.5;     ///< horizon / spacing where `horizon` is "auto"
+  std::optional<double> horizon;        ///< m
+  std::optional<double> horizon_ratio;  ///< horizon / spacing where `horizon` is "auto"
   std::vector<double> lattice_shift{
       0.5, 0.5};        ///< offset of the nearest column from the axis, in spacings: along x and along y
   double rotation = 0;  ///< rad
@@ -139,6 +139,9 @@ ParameterList declare_start(Parameters& p);
 /// critical_stretch, ramp_time, layer_thickness, end_length, supply_area, schedule_start and
 /// correlation_length. Throws InputError with the key at fault. Returns warnings.
 std::vector<std::string> resolve(Parameters& p);
+
+/// Makes the whole wall `factor` times as stiff.
+void scale_stiffness(Parameters& p, double factor);
 
 /// Spacing (m) that cuts the wall's volume into `particles` cubes, Sec. 3.3: (pi (r1^2 - r0^2) L / N)^(1/3).
 double constant_number_spacing(double inner_radius, double outer_radius, double length, double particles);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -79,6 +80,29 @@ std::string advice(const Parameters& resolved, bool geometry_is_given,
   return text;
 }
 
+/// Bonds of a particle inside a wall of a law by gradient, an upper bound of the mean.
+double neighbours_inside(const Parameters& p) {
+  return 4.0 / 3 * std::numbers::pi * std::pow(*p.horizon / *p.spacing, 3);
+}
+
+/// Of a law by gradient.
+WallMemory general_memory(const Parameters& p, const WallSize& wall, const WallUse& use) {
+  const double particles = wall.particles(), neighbours = neighbours_inside(p);
+  const double geometry = use.ranks * geometry_bytes(particles, neighbours);
+  const double body =
+      general_body_bytes(particles, neighbours, p.bond_precision == Precision::double_precision);
+  double run = body + Observation::bytes(particles);
+  if (use.outputs)
+    run += ParticleSource::bytes(particles, true) +
+           3 * particles * (use.doubles ? sizeof(double) : sizeof(float));
+  if (use.checkpoints) run += particles * (6 * sizeof(double) + neighbours / 8);
+  if (p.equilibrium_pressure > 0)
+    run = std::max(run, body + Observation::bytes(particles) + equilibrium_bytes(body, particles));
+  const double pieces = wall.columns * std::min(wall.rows, static_cast<double>(timed_rows * use.ranks));
+  return {geometry + run,
+          geometry + geometry_bytes(pieces, neighbours) + general_body_bytes(pieces, neighbours, true)};
+}
+
 double run_bytes(const Parameters& p, const WallSize& wall, const WallUse& use) {
   const bool doubles = p.bond_precision == Precision::double_precision;
   const BodySize size = body_size(p, wall, wall.rows, use.ranks);
@@ -87,7 +111,8 @@ double run_bytes(const Parameters& p, const WallSize& wall, const WallUse& use) 
   if (use.outputs) {
     const double across = std::max(1.0, (p.outer_radius - p.inner_radius) / *p.spacing);
     const double written = 3 * particles * (use.doubles ? sizeof(double) : sizeof(float));
-    bytes += ParticleSource::bytes(particles) + written + OpeningGauge::bytes(particles, across, use.threads);
+    bytes += ParticleSource::bytes(particles, false) + written +
+             OpeningGauge::bytes(particles, across, use.threads);
   }
   if (use.checkpoints) bytes += Body::Saved::bytes(size);
   if (p.equilibrium_pressure > 0)
@@ -105,6 +130,7 @@ double check_bytes(const Parameters& p, const WallSize& wall, const WallUse& use
 }  // namespace
 
 WallMemory wall_memory(const Parameters& p, const WallSize& size, const WallUse& use) {
+  if (p.law.by_gradient()) return general_memory(p, size, use);
   const double families = use.ranks * BondFamilies::bytes(size);  // every rank has them all
   const double weighting = use.ranks * weighting_bytes(p, size);
   return {families + std::max(weighting, run_bytes(p, size, use)),

@@ -37,7 +37,7 @@ bool is_package(const fs::path& path) {
 fs::path own_script(const std::string& name) {
   const fs::path folder = own_catalyst_scripts();
   std::vector<std::string> known;
-  for (const char* script : {"coupled", "network", "template", "vessel"})
+  for (const char* script : {"coupled", "network", "stress", "template", "vessel"})
     if (fs::exists(folder / (std::string(script) + ".py"))) known.emplace_back(script);
   if (std::ranges::find(known, name) != known.end()) return folder / (name + ".py");
   if (known.empty()) throw InputError("Rhexis's own scripts are not in " + folder.string(), key);

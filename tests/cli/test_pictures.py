@@ -44,7 +44,7 @@ class Scripts(VesselCase):
         self.write(SHORT + '[insitu]\nscripts = ["vesel"]\n')
         result = self.rhexis("check", "vessel.toml")
         self.assertEqual(result.returncode, 2)
-        for text in ('vessel.toml:', 'insitu.scripts', '"coupled", "network", "template", "vessel"', "did you mean vessel?", '"./vesel.py"'):
+        for text in ('vessel.toml:', 'insitu.scripts', '"coupled", "network", "stress", "template", "vessel"', "did you mean vessel?", '"./vesel.py"'):
             self.assertIn(text, result.stderr)
         os.mkdir(self.path("vessel"))  # no script: what is meant is Rhexis's own
         result = self.rhexis("check", "vessel.toml", "--set", 'insitu.scripts=["vessel"]')

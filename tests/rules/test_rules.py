@@ -41,11 +41,11 @@ ROOMS = {
     "peridynamics": {
         "geometry": set(),
         "bonds": {"geometry"},
-        "laws": set(),
+        "laws": {"geometry"},
         "loads": {"geometry"},
         "engine": {"bonds", "geometry", "laws", "loads"},
         "stability": {"bonds", "engine", "geometry", "laws"},
-        "monitors": {"bonds", "engine", "geometry", "loads"},
+        "monitors": {"bonds", "engine", "geometry", "laws", "loads"},
         "statics": {"bonds", "engine", "geometry", "laws", "stability"},
         "simulation": {"engine", "loads", "monitors", "statics"},
     },

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/engine/body.hpp"
 
+#include <stdexcept>
+
 #include "peridynamics/engine/column_body_observe.hpp"
 #include "peridynamics/engine/column_body_restart.hpp"
 #include "peridynamics/engine/column_body_step.hpp"
 #include "peridynamics/laws/all_laws.hpp"
+#include "peridynamics/laws/correspondence/wall_deformation.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -13,6 +16,10 @@ std::unique_ptr<Body> make_body(BodySetup setup, parallel::Communicator comm) {
     if (setup.double_bonds) return std::make_unique<ColumnBody<Law, double>>(law, std::move(setup), comm);
     return std::make_unique<ColumnBody<Law, float>>(law, std::move(setup), comm);
   });
+}
+
+WallDeformation Body::wall_deformation(std::size_t /*particle*/) const {
+  throw std::logic_error("this body knows no deformation of a wall");
 }
 
 double body_bytes(const LawChoice& law, bool double_bonds, const BodySize& size) {

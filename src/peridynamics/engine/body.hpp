@@ -68,6 +68,8 @@ inline bool holds_no_more_than_was_put_in(const Totals& t) {
          energy <= (t.crushed_bonds > 0 ? 1.1 : 2.0) * (std::abs(t.external_work) + t.lost);
 }
 
+struct WallDeformation;
+
 class Body {
  public:
   virtual ~Body() = default;
@@ -82,6 +84,8 @@ class Body {
   virtual std::array<double, 3> reference_position(std::size_t particle) const = 0;
   /// Volumes (m3) of owned particles.
   virtual std::vector<double> volumes() const = 0;
+  /// The largest force density of the load for a pressure of 1, anywhere; 1/m.
+  virtual double largest_load() const = 0;
   /// Sets the components that the ends hold to 0 in a vector field over owned particles.
   virtual void clear_held(std::array<std::vector<double>, 3>& field) const = 0;
 
@@ -100,9 +104,18 @@ class Body {
   /// Breaks the bonds that are due at the present time and sums forces and energies under `pressure` (Pa);
   /// the next `observe` or `advance` at this time uses them. Collective.
   virtual void find_forces(double pressure) = 0;
+  /// Breaks the bonds that are due at the present time and returns the force density (N/m3: bonds and
+  /// pressure) under `pressure` (Pa), without the other fields. Collective; valid until the next call.
+  virtual const std::array<std::vector<double>, 3>& force_density(double pressure) {
+    return observe(pressure).force_density;
+  }
   /// Breaks the bonds that are due at the present time and evaluates all fields under `pressure` (Pa).
   /// Collective. The reference stays valid until the next call.
   virtual const Observation& observe(double pressure) = 0;
+  /// Whether its law is one by gradient, on a wall: then wall_deformation says more of what was observed.
+  virtual bool has_wall_deformation() const { return false; }
+  /// Deformation and stress of an owned particle at the last observation.
+  virtual WallDeformation wall_deformation(std::size_t particle) const;
   /// The sums at the last observation. Collective.
   virtual Totals totals() const = 0;
   /// Largest |u|, m. Collective.

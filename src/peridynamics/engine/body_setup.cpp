@@ -24,8 +24,9 @@ BodySetup make_setup(const Parameters& p, Lattice lattice, SharedFamilies famili
   setup.end_length = *p.end_length;
   setup.density = p.density;
   setup.law = p.law;
-  setup.bond_constant =
-      with_law(setup.law, [&](const auto& law) { return law.bond_constant(p.young_modulus, *p.horizon); });
+  if (!p.law.by_gradient())
+    setup.bond_constant =
+        with_law(setup.law, [&](const auto& law) { return law.bond_constant(p.young_modulus, *p.horizon); });
   setup.critical_stretch = *p.critical_stretch;
   setup.time_step = time_step;
   // Strain energy of the whole wall at the critical stretch, or the pressure on as much: what happens stays

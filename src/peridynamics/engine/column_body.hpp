@@ -97,6 +97,7 @@ class ColumnBody final : public Body {
             setup_.lattice.height(l.first_row + static_cast<std::int64_t>(particle % rows))};
   }
   std::vector<double> volumes() const override;
+  double largest_load() const override { return load_.largest(); }
   void clear_held(std::array<std::vector<double>, 3>& field) const override;
 
   void set_state(const std::array<std::vector<double>, 3>& displacement,

@@ -16,6 +16,7 @@
 
 #include "peridynamics/engine/block_partition.hpp"
 #include "peridynamics/engine/general_setup.hpp"
+#include "peridynamics/engine/quads.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -48,13 +49,14 @@ class FamilyBlocks {
   std::size_t most_slots() const { return most_slots_; }
 
   // Of known particles.
-  std::array<std::vector<std::int32_t>, 3> place;  ///< in steps
-  std::array<std::vector<Real>, 3> multiplier;     ///< GradientWeights
-  std::vector<Real> volume;                        ///< in spacings^3
+  std::vector<std::int32_t> place;  ///< in steps, quads (engine/quads.hpp)
+  std::vector<Real> multiplier;     ///< GradientWeights, quads
+  std::vector<Real> volume;         ///< in spacings^3
 
   // Of bonds, [slots][16].
-  std::vector<std::int32_t> partner;  ///< local number; a particle's own where it has no such bond
-  std::vector<std::int32_t> reverse;  ///< where the other end's T_x stands among forces, [slots][3][16]
+  std::vector<std::int32_t>
+      partner;  ///< where the other end's quad begins; a particle's own where it has no such bond
+  std::vector<std::int32_t> reverse;  ///< where the other end's T stands among forces, [slots][16][3]
   std::vector<Real> weight;           ///< w_ij V_j
   std::vector<std::uint16_t> words;   ///< [slots] bit k: the bond of particle k exists and is unbroken
 
@@ -81,7 +83,7 @@ class FamilyBlocks {
     const std::size_t block = particle / width, lane = particle % width;
     for (std::size_t slot = first_slot_[block]; slot < first_slot_[block + 1]; ++slot) {
       if ((words[slot] >> lane & 1U) == 0) continue;
-      const Eigen::Vector3d xi = bond(particle, static_cast<std::size_t>(partner[slot * width + lane]));
+      const Eigen::Vector3d xi = bond(particle, other_end(slot * width + lane));
       moment += double{weight[slot * width + lane]} * xi * xi.transpose();
     }
     return moment.inverse();
@@ -91,27 +93,37 @@ class FamilyBlocks {
   Eigen::Vector3d bond(std::size_t particle, std::size_t other) const {
     Eigen::Vector3d xi;
     for (std::size_t k = 0; k < 3; ++k)
-      xi[static_cast<Eigen::Index>(k)] = place_step * (place[k][other] - place[k][particle]);
+      xi[static_cast<Eigen::Index>(k)] = place_step * (place[quad * other + k] - place[quad * particle + k]);
     return xi;
+  }
+
+  /// Local number of the particle at the other end of a bond.
+  std::size_t other_end(std::size_t bond) const { return static_cast<std::size_t>(partner[bond]) / quad; }
+
+  /// Difference of multipliers over a bond.
+  Eigen::Vector3d multiplier_step(std::size_t particle, std::size_t other) const {
+    Eigen::Vector3d step;
+    for (std::size_t k = 0; k < 3; ++k)
+      step[static_cast<Eigen::Index>(k)] =
+          double{multiplier[quad * other + k]} - double{multiplier[quad * particle + k]};
+    return step;
   }
 
  private:
   void place_particles(const GeneralGeometry& geometry) {
     const ParticleSet& set = geometry.particles;
     const std::size_t known = width * partition_->known_blocks();
-    for (std::size_t k = 0; k < 3; ++k) {
-      place[k].assign(known, 0);
-      multiplier[k].assign(known, Real(0));
-    }
+    place.assign(quad * known, 0);
+    multiplier.assign(quad * known, Real(0));
     volume.assign(known, Real(0));
     for (std::size_t b = 0; b < partition_->known_blocks(); ++b) {
       for (int lane = 0; lane < partition_->particles_in(partition_->block(b)); ++lane) {
         const std::size_t here = b * width + static_cast<std::size_t>(lane);
         const auto particle = static_cast<std::size_t>(partition_->block(b) * block_rows + lane);
         for (std::size_t k = 0; k < 3; ++k) {
-          place[k][here] = static_cast<std::int32_t>(
+          place[quad * here + k] = static_cast<std::int32_t>(
               std::lround((set.position[k][particle] - set.position[k][0]) / (spacing_ * place_step)));
-          multiplier[k][here] = static_cast<Real>(geometry.gradient.multiplier[particle][k]);
+          multiplier[quad * here + k] = static_cast<Real>(geometry.gradient.multiplier[particle][k]);
         }
         volume[here] = static_cast<Real>(set.volume[particle] / std::pow(spacing_, 3));
       }
@@ -134,8 +146,9 @@ class FamilyBlocks {
           const auto particle = static_cast<std::size_t>(first + lane);
           const bool exists = lane < count && slot < geometry.neighbours.family_size(particle);
           const std::size_t bond = exists ? geometry.neighbours.first[particle] + slot : 0;
-          partner.push_back(exists ? partition_->local(geometry.neighbours.partner[bond])
-                                   : static_cast<std::int32_t>(b * width) + lane);
+          const std::int32_t other = exists ? partition_->local(geometry.neighbours.partner[bond])
+                                            : static_cast<std::int32_t>(b * width) + lane;
+          partner.push_back(static_cast<std::int32_t>(quad) * other);
           weight.push_back(exists ? static_cast<Real>(geometry.gradient.weight[bond]) : Real(0));
           if (exists) word = static_cast<std::uint16_t>(word | 1U << lane);
         }
@@ -159,7 +172,7 @@ class FamilyBlocks {
       for (std::size_t slot = first_slot_[b]; slot < first_slot_[b + 1]; ++slot) {
         for (std::size_t lane = 0; lane < width; ++lane) {
           const std::size_t bond = slot * width + lane;
-          const auto other = static_cast<std::size_t>(partner[bond]);
+          const auto other = other_end(bond);
           std::size_t there = slot;  // of a bond that does not exist: itself
           if ((words[slot] >> lane & 1U) != 0) {
             const auto id = static_cast<std::int32_t>(partition_->block(b) * block_rows) +
@@ -169,7 +182,7 @@ class FamilyBlocks {
             const auto position = std::lower_bound(family.begin(), family.end(), id) - family.begin();
             there = first_slot_[other / width] + static_cast<std::size_t>(position);
           }
-          reverse[bond] = static_cast<std::int32_t>(3 * width * there + other % width);
+          reverse[bond] = static_cast<std::int32_t>(3 * (width * there + other % width));
         }
       }
     }
@@ -183,7 +196,7 @@ class FamilyBlocks {
     double all = 0, left = 0;
     for (std::size_t slot = first_slot_[block]; slot < first_slot_[block + 1]; ++slot) {
       const std::size_t b = slot * width + lane;
-      const auto j = static_cast<std::size_t>(partner[b]);
+      const auto j = other_end(b);
       if (weight[b] == 0) continue;
       const Eigen::Vector3d xi = bond(i, j);
       const double w = weight[b];
@@ -194,10 +207,7 @@ class FamilyBlocks {
       left += volume[j];
       moment += outer;
       directions += outer / xi.squaredNorm();
-      const Eigen::Vector3d step(double{multiplier[0][j]} - double{multiplier[0][i]},
-                                 double{multiplier[1][j]} - double{multiplier[1][i]},
-                                 double{multiplier[2][j]} - double{multiplier[2][i]});
-      turned += w * step * xi.transpose();
+      turned += w * multiplier_step(i, j) * xi.transpose();
     }
     damage[i] = all > 0 ? 1 - left / all : 0;
     const double share = smallest_eigenvalue(moment) / smallest_eigenvalue(whole);

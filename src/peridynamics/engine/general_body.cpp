@@ -11,6 +11,7 @@
 #include "parallel/threads.hpp"
 #include "peridynamics/engine/correspondence_kernel.hpp"
 #include "peridynamics/engine/energy_account.hpp"
+#include "peridynamics/laws/correspondence/wall_deformation.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -23,7 +24,7 @@ struct alignas(128) EvaluationEvents {
   bool damaged = false;
 };
 
-template <class Real>
+template <class Law, class Real>
 class GeneralBody final : public Body {
  public:
   GeneralBody(std::shared_ptr<const GeneralSetup> setup, parallel::Communicator comm)
@@ -33,26 +34,28 @@ class GeneralBody final : public Body {
         partition_(setup_->geometry->neighbours, comm),
         ids_(partition_.ids()),
         family_(*setup_->geometry, partition_),
+        law_(std::get<Law>(setup_->law)),
+        law_here_(law_, frames()),
         halo_(comm,
               partition_.halo(BlockPartition::Layer::known,
                               [](std::size_t block) {
-                                return parallel::Run{block * width, width};
+                                return parallel::Run{quad * block * width, quad * width};
                               }),
-              3),
-        force_(hwy::AllocateAligned<Real>(3 * width * family_.slots())),
+              1),
+        force_(3 * width * family_.slots() + 1, Real(0)),  // one more than load_triples uses
         account_(setup_->energy_scale) {
     const ParticleSet& set = setup_->geometry->particles;
-    unit_ = set.spacing * set.spacing * setup_->law.shear_modulus;
+    unit_ = set.spacing * set.spacing * law_.shear_modulus;
     const std::size_t known = width * partition_.known_blocks(),
                       evaluated = width * partition_.evaluated_blocks();
     for (std::size_t k = 0; k < 3; ++k) {
       u_[k].assign(particles(), 0.0);
       v_[k].assign(particles(), 0.0);
       sum_[k].assign(particles(), 0.0);
-      bond_u_[k].assign(known, Real(0));
     }
+    bond_u_.assign(quad * known, Real(0));
     for (auto& component : gradient_) component.assign(evaluated, Real(0));
-    std::fill_n(force_.get(), 3 * width * family_.slots(), Real(0));
+    for (auto& component : own_force_) component.assign(evaluated, Real(0));
     for (std::size_t i = 0; i < particles(); ++i) {
       volumes_.push_back(set.volume[first_particle() + i]);
     }
@@ -69,6 +72,9 @@ class GeneralBody final : public Body {
     return setup_->geometry->particles.at(first_particle() + particle);
   }
   std::vector<double> volumes() const override { return volumes_; }
+  double largest_load() const override { return largest_load_; }
+  bool has_wall_deformation() const override { return !setup_->geometry->particles.frame.empty(); }
+  WallDeformation wall_deformation(std::size_t particle) const override;
   std::int64_t bonds() const override { return comm_.all_reduce(initial_bonds_, parallel::Reduce::sum) / 2; }
   std::int64_t bond_evaluations() const override { return bond_evaluations_; }
   parallel::Traffic traffic() const override { return halo_.traffic(); }
@@ -99,6 +105,7 @@ class GeneralBody final : public Body {
 
   StepEvents advance(double pressure, double next_pressure) override;
   void find_forces(double pressure) override { evaluate(pressure); }
+  const std::array<std::vector<double>, 3>& force_density(double pressure) override;
   const Observation& observe(double pressure) override;
   Totals totals() const override;
   double max_displacement() const override;
@@ -130,10 +137,19 @@ class GeneralBody final : public Body {
   }
   std::size_t owned_slots() const { return family_.first_slot(partition_.owned_blocks()); }
   double spacing() const { return setup_->geometry->particles.spacing; }
+  /// eta of a bond, in spacings.
+  Eigen::Vector3d extension(std::size_t particle, std::size_t other) const {
+    Eigen::Vector3d eta;
+    for (std::size_t k = 0; k < 3; ++k)
+      eta[static_cast<Eigen::Index>(k)] =
+          double{bond_u_[quad * other + k]} - double{bond_u_[quad * particle + k]};
+    return eta;
+  }
   bool is_held(std::size_t particle, std::size_t axis) const {
     return !setup_->held.empty() && (setup_->held[first_particle() + particle] >> axis & 1U) != 0;
   }
 
+  std::vector<const WallFrame*> frames() const;
   void place_load();
   void find_reach(std::size_t block, std::size_t lane);
   Vector3 surface_step(std::size_t block, std::size_t lane) const;
@@ -144,6 +160,7 @@ class GeneralBody final : public Body {
                       EvaluationEvents& events);
   void add_load_work(std::size_t block, const BlockLoad<Real>& now, unsigned lanes, EvaluationEvents& events);
   Tensor<double> gradient_of(std::size_t particle) const;
+  Tensor<double> evaluated_gradient(std::size_t particle) const;
   double energy_of(std::size_t particle, const Tensor<double>& h) const;
 
   std::shared_ptr<const GeneralSetup> setup_;
@@ -152,13 +169,16 @@ class GeneralBody final : public Body {
   BlockPartition partition_;
   IdRanges ids_;
   FamilyBlocks<Real> family_;
+  Law law_;
+  typename Law::template AtParticles<Real> law_here_;  ///< at evaluated particles
   parallel::HaloExchange<Real> halo_;
   double unit_ = 0;                                  ///< N: mu h^2
   std::vector<double> volumes_;                      ///< m3, owned
   std::array<std::vector<double>, 3> u_, v_, sum_;   ///< m, m/s, N: forces at the present time
-  std::array<std::vector<Real>, 3> bond_u_;          ///< displacement in spacings, known particles
+  std::vector<Real> bond_u_;                         ///< displacement in spacings, quads of known particles
   std::array<std::vector<Real>, 9> gradient_;        ///< H, evaluated particles
-  hwy::AlignedFreeUniquePtr<Real[]> force_;          ///< T, [slots][3][16]
+  std::vector<Real> force_;                          ///< T, [slots][16][3]
+  std::array<std::vector<Real>, 3> own_force_;       ///< sum of T over the family, evaluated particles
   std::vector<BondScratch<Real>> scratch_;           ///< [threads]
   std::vector<BlockLoad<Real>> loads_, last_loads_;  ///< of blocks with a loaded surface
   std::vector<std::int32_t> load_of_;                ///< [evaluated blocks] place among loads_, or -1
@@ -177,9 +197,25 @@ class GeneralBody final : public Body {
   double ruptured_low_ = INFINITY, ruptured_high_ = -INFINITY;  ///< m, z
 };
 
+/// Of the evaluated particles, local numbers; null where no particle stands.
+template <class Law, class Real>
+std::vector<const WallFrame*> GeneralBody<Law, Real>::frames() const {
+  std::vector<const WallFrame*> frames(width * partition_.evaluated_blocks(), nullptr);
+  const ParticleSet& set = setup_->geometry->particles;
+  if (set.frame.empty()) return frames;
+  for (std::size_t b = 0; b < partition_.evaluated_blocks(); ++b) {
+    const auto first = static_cast<std::size_t>(partition_.block(b)) * width;
+    for (int lane = 0; lane < partition_.particles_in(partition_.block(b)); ++lane) {
+      const auto i = static_cast<std::size_t>(lane);
+      frames[b * width + i] = &set.frame[first + i];
+    }
+  }
+  return frames;
+}
+
 /// Puts the loaded pieces of surface to their blocks.
-template <class Real>
-void GeneralBody<Real>::place_load() {
+template <class Law, class Real>
+void GeneralBody<Law, Real>::place_load() {
   const ParticleSet& set = setup_->geometry->particles;
   const double h = spacing();
   loads_.clear();
@@ -214,8 +250,8 @@ void GeneralBody<Real>::place_load() {
 }
 
 /// Finds how a loaded piece of surface moves with the bonds that its particle has left.
-template <class Real>
-void GeneralBody<Real>::find_reach(std::size_t block, std::size_t lane) {
+template <class Law, class Real>
+void GeneralBody<Law, Real>::find_reach(std::size_t block, std::size_t lane) {
   BlockLoad<Real>& load = loads_[static_cast<std::size_t>(load_of_[block])];
   const Eigen::Vector3d offset(double{load.offset[0][lane]}, double{load.offset[1][lane]},
                                double{load.offset[2][lane]});
@@ -225,54 +261,71 @@ void GeneralBody<Real>::find_reach(std::size_t block, std::size_t lane) {
 }
 
 /// Where a loaded piece of surface has moved to, in spacings.
-template <class Real>
-Vector3 GeneralBody<Real>::surface_step(std::size_t block, std::size_t lane) const {
+template <class Law, class Real>
+Vector3 GeneralBody<Law, Real>::surface_step(std::size_t block, std::size_t lane) const {
   const BlockLoad<Real>& load = loads_[static_cast<std::size_t>(load_of_[block])];
   const std::size_t i = block * width + lane;
   const Eigen::Vector3d reach(double{load.reach[0][lane]}, double{load.reach[1][lane]},
                               double{load.reach[2][lane]});
-  Vector3 step{double{bond_u_[0][i]}, double{bond_u_[1][i]}, double{bond_u_[2][i]}};
+  Vector3 step{double{bond_u_[quad * i]}, double{bond_u_[quad * i + 1]}, double{bond_u_[quad * i + 2]}};
   for (std::size_t slot = family_.first_slot(block); slot < family_.first_slot(block + 1); ++slot) {
     if ((family_.words[slot] >> lane & 1U) == 0) continue;
-    const auto j = static_cast<std::size_t>(family_.partner[slot * width + lane]);
+    const auto j = family_.other_end(slot * width + lane);
     const double share = double{family_.weight[slot * width + lane]} * family_.bond(i, j).dot(reach);
-    for (std::size_t k = 0; k < 3; ++k) step[k] += share * (double{bond_u_[k][j]} - double{bond_u_[k][i]});
+    const Eigen::Vector3d eta = extension(i, j);
+    for (std::size_t k = 0; k < 3; ++k) step[k] += share * eta[static_cast<Eigen::Index>(k)];
   }
   return step;
 }
 
-template <class Real>
-void GeneralBody<Real>::fill_bond_displacement() {
+template <class Law, class Real>
+void GeneralBody<Law, Real>::fill_bond_displacement() {
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < particles(); ++i) bond_u_[k][i] = static_cast<Real>(u_[k][i] / spacing());
+    for (std::size_t i = 0; i < particles(); ++i)
+      bond_u_[quad * i + k] = static_cast<Real>(u_[k][i] / spacing());
   }
 }
 
 /// H of a particle from the bonds that are left, as the kernel has it.
-template <class Real>
-Tensor<double> GeneralBody<Real>::gradient_of(std::size_t i) const {
+template <class Law, class Real>
+Tensor<double> GeneralBody<Law, Real>::gradient_of(std::size_t i) const {
   Eigen::Matrix3d slope, h = Eigen::Matrix3d::Zero();
   for (int k = 0; k < 9; ++k) slope(k / 3, k % 3) = double{family_.slope[static_cast<std::size_t>(k)][i]};
   const std::size_t block = i / width;
   for (std::size_t slot = family_.first_slot(block); slot < family_.first_slot(block + 1); ++slot) {
     if ((family_.words[slot] >> (i % width) & 1U) == 0) continue;
     const std::size_t bond = slot * width + i % width;
-    const auto j = static_cast<std::size_t>(family_.partner[bond]);
-    Eigen::Vector3d eta, step;
-    for (int k = 0; k < 3; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      eta[k] = double{bond_u_[axis][j]} - double{bond_u_[axis][i]};
-      step[k] = double{family_.multiplier[axis][j]} - double{family_.multiplier[axis][i]};
-    }
-    h += double{family_.weight[bond]} * eta *
-         (slope * family_.bond(i, j) + double{family_.volume[i]} * step).transpose();
+    const auto j = family_.other_end(bond);
+    h += double{family_.weight[bond]} * extension(i, j) *
+         (slope * family_.bond(i, j) + double{family_.volume[i]} * family_.multiplier_step(i, j)).transpose();
   }
   return {h(0, 0), h(0, 1), h(0, 2), h(1, 0), h(1, 1), h(1, 2), h(2, 0), h(2, 1), h(2, 2)};
 }
 
+/// H as last evaluated.
+template <class Law, class Real>
+Tensor<double> GeneralBody<Law, Real>::evaluated_gradient(std::size_t i) const {
+  const std::array<std::vector<Real>, 9>& g = gradient_;
+  return {double{g[0][i]}, double{g[1][i]}, double{g[2][i]}, double{g[3][i]}, double{g[4][i]},
+          double{g[5][i]}, double{g[6][i]}, double{g[7][i]}, double{g[8][i]}};
+}
+
+template <class Law, class Real>
+WallDeformation GeneralBody<Law, Real>::wall_deformation(std::size_t i) const {
+  const WallFrame& frame = setup_->geometry->particles.frame[first_particle() + i];
+  WallDeformation wall;
+  wall.gradient = evaluated_gradient(i);
+  const Deformation<double> f(wall.gradient);
+  wall.stress = product(double{family_.strength[i]} * law_.shear_modulus, law_here_.stress(f, i));
+  wall.hoop = frame.along_wall(0);
+  wall.axial = {double{frame.axial[0]}, double{frame.axial[1]}, double{frame.axial[2]}};
+  wall.fibre_stretch = law_here_.fibre_stretch(f, i);
+  return wall;
+}
+
 /// Energy of an evaluated particle (J) whose gradient is `h`.
-template <class Real>
-double GeneralBody<Real>::energy_of(std::size_t i, const Tensor<double>& h) const {
+template <class Law, class Real>
+double GeneralBody<Law, Real>::energy_of(std::size_t i, const Tensor<double>& h) const {
   const double stressed = double{family_.strength[i]} * double{family_.volume[i]};
   if (stressed == 0) return 0;
   Eigen::Matrix3d gradient;
@@ -282,24 +335,21 @@ double GeneralBody<Real>::energy_of(std::size_t i, const Tensor<double>& h) cons
   for (std::size_t slot = family_.first_slot(block); slot < family_.first_slot(block + 1); ++slot) {
     if ((family_.words[slot] >> (i % width) & 1U) == 0) continue;
     const std::size_t bond = slot * width + i % width;
-    const auto j = static_cast<std::size_t>(family_.partner[bond]);
+    const auto j = family_.other_end(bond);
     const Eigen::Vector3d xi = family_.bond(i, j);
-    Eigen::Vector3d eta;
-    for (int k = 0; k < 3; ++k) {
-      const auto axis = static_cast<std::size_t>(k);
-      eta[k] = double{bond_u_[axis][j]} - double{bond_u_[axis][i]};
-    }
-    deviation += double{family_.weight[bond]} * (eta - gradient * xi).squaredNorm() / xi.squaredNorm();
+    deviation +=
+        double{family_.weight[bond]} * (extension(i, j) - gradient * xi).squaredNorm() / xi.squaredNorm();
   }
-  const double relative = stressed * (setup_->law.energy(Deformation<double>(h)) +
-                                      penalty_factor * double{family_.inverse_weight[i]} * deviation);
+  const double penalty = penalty_factor * law_here_.template shear_modulus<double>(i) *
+                         double{family_.inverse_weight[i]} * deviation;
+  const double relative = stressed * (law_here_.energy(Deformation<double>(h), i) + penalty);
   return relative * unit_ * spacing();
 }
 
 /// Adds the work of the surface's pieces in `lanes` since the moment before to `events`.
-template <class Real>
-void GeneralBody<Real>::add_load_work(std::size_t block, const BlockLoad<Real>& now, unsigned lanes,
-                                      EvaluationEvents& events) {
+template <class Law, class Real>
+void GeneralBody<Law, Real>::add_load_work(std::size_t block, const BlockLoad<Real>& now, unsigned lanes,
+                                           EvaluationEvents& events) {
   const BlockLoad<Real>& last = last_loads_[static_cast<std::size_t>(load_of_[block])];
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -312,9 +362,10 @@ void GeneralBody<Real>::add_load_work(std::size_t block, const BlockLoad<Real>& 
   }
 }
 
-template <class Real>
-void GeneralBody<Real>::evaluate_share(std::size_t begin, std::size_t end, const KernelState<Real>& state,
-                                       int thread, EvaluationEvents& events) {
+template <class Law, class Real>
+void GeneralBody<Law, Real>::evaluate_share(std::size_t begin, std::size_t end,
+                                            const KernelState<Real>& state, int thread,
+                                            EvaluationEvents& events) {
   for (std::size_t block = begin; block < end; ++block) {
     const bool owned = block < partition_.owned_blocks();
     BlockLoad<Real>* const load =
@@ -344,8 +395,8 @@ void GeneralBody<Real>::evaluate_share(std::size_t begin, std::size_t end, const
       }
     };
     const int broken =
-        evaluate_block(setup_->law, family_, state, block, load, scratch_[static_cast<std::size_t>(thread)],
-                       force_.get(), gradient_, before, after);
+        evaluate_block(law_here_, family_, state, block, load, scratch_[static_cast<std::size_t>(thread)],
+                       force_.data(), own_force_, gradient_, before, after);
     if (!owned) continue;
     events.broken += broken;
     if (load == nullptr) continue;
@@ -355,16 +406,14 @@ void GeneralBody<Real>::evaluate_share(std::size_t begin, std::size_t end, const
 }
 
 /// Forces at the present time.
-template <class Real>
-void GeneralBody<Real>::evaluate(double pressure) {
+template <class Law, class Real>
+void GeneralBody<Law, Real>::evaluate(double pressure) {
   if (forces_known_ && pressure == known_pressure_) return;
-  const std::array<Real*, 3> u{bond_u_[0].data(), bond_u_[1].data(), bond_u_[2].data()};
+  const std::array<Real*, 1> u{bond_u_.data()};
   halo_.start(u);
   halo_.finish(u);
-  const KernelState<Real> state{{u[0], u[1], u[2]},
-                                static_cast<Real>(t_of_stretch(setup_->critical_stretch)),
-                                static_cast<Real>(pressure / setup_->law.shear_modulus),
-                                setup_->follower_load};
+  const KernelState<Real> state{bond_u_.data(), static_cast<Real>(t_of_stretch(setup_->critical_stretch)),
+                                static_cast<Real>(pressure / law_.shear_modulus), setup_->follower_load};
   std::vector<EvaluationEvents> per_thread(static_cast<std::size_t>(threads_),
                                            EvaluationEvents(setup_->energy_scale));
   parallel::for_each_share(
@@ -374,7 +423,7 @@ void GeneralBody<Real>::evaluate(double pressure) {
   parallel::for_each_share(threads_, partition_.owned_blocks(), [&](int, std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
       alignas(64) Real sum[3][16];
-      sum_forces(family_, block, force_.get(), sum);
+      sum_forces(family_, block, force_.data(), own_force_, sum);
       const BlockLoad<Real>* const load =
           load_of_[block] < 0 ? nullptr : &loads_[static_cast<std::size_t>(load_of_[block])];
       const std::size_t past = std::min(width, particles() - block * width);
@@ -399,8 +448,8 @@ void GeneralBody<Real>::evaluate(double pressure) {
   known_pressure_ = pressure;
 }
 
-template <class Real>
-StepEvents GeneralBody<Real>::advance(double pressure, double /*next_pressure*/) {
+template <class Law, class Real>
+StepEvents GeneralBody<Law, Real>::advance(double pressure, double /*next_pressure*/) {
   evaluate(pressure);
   const double dt = setup_->time_step, kick = first_kick_pending_ ? 0.5 * dt : dt;
   load_speed_ += dt * std::abs(pressure) * largest_load_ / setup_->density;
@@ -414,7 +463,7 @@ StepEvents GeneralBody<Real>::advance(double pressure, double /*next_pressure*/)
         v += kick * sum_[k][i] / (setup_->density * volumes_[i]);
         u_[k][i] += dt * v;
         too_fast[static_cast<std::size_t>(thread)] += std::abs(v) < fastest ? 0 : 1;
-        bond_u_[k][i] = static_cast<Real>(u_[k][i] / spacing());
+        bond_u_[quad * i + k] = static_cast<Real>(u_[k][i] / spacing());
       }
     }
   });
@@ -425,13 +474,20 @@ StepEvents GeneralBody<Real>::advance(double pressure, double /*next_pressure*/)
           .unstable = std::ranges::any_of(too_fast, [](int count) { return count > 0; })};
 }
 
-template <class Real>
-const Observation& GeneralBody<Real>::observe(double pressure) {
+template <class Law, class Real>
+const std::array<std::vector<double>, 3>& GeneralBody<Law, Real>::force_density(double pressure) {
   evaluate(pressure);
   for (std::size_t k = 0; k < 3; ++k) {
-    observation_.velocity[k].resize(particles());
     observation_.force_density[k].resize(particles());
+    for (std::size_t i = 0; i < particles(); ++i) observation_.force_density[k][i] = sum_[k][i] / volumes_[i];
   }
+  return observation_.force_density;
+}
+
+template <class Law, class Real>
+const Observation& GeneralBody<Law, Real>::observe(double pressure) {
+  force_density(pressure);
+  for (std::vector<double>& component : observation_.velocity) component.resize(particles());
   observation_.strain_energy_density.resize(particles());
   observation_.damage.resize(particles());
   const double kick = first_kick_pending_ ? 0 : 0.5 * setup_->time_step;
@@ -443,16 +499,12 @@ const Observation& GeneralBody<Real>::observe(double pressure) {
     for (std::size_t i = begin; i < end; ++i) {
       double speed2 = 0;
       for (std::size_t k = 0; k < 3; ++k) {
-        const double force = sum_[k][i] / volumes_[i];
+        const double force = observation_.force_density[k][i];
         const double v = v_[k][i] + (is_held(i, k) ? 0.0 : kick * force / setup_->density);
-        observation_.force_density[k][i] = force;
         observation_.velocity[k][i] = v;
         speed2 += v * v;
       }
-      const std::array<std::vector<Real>, 9>& g = gradient_;
-      const double energy =
-          energy_of(i, {double{g[0][i]}, double{g[1][i]}, double{g[2][i]}, double{g[3][i]}, double{g[4][i]},
-                        double{g[5][i]}, double{g[6][i]}, double{g[7][i]}, double{g[8][i]}});
+      const double energy = energy_of(i, evaluated_gradient(i));
       observation_.strain_energy_density[i] = energy / volumes_[i];
       observation_.damage[i] = family_.damage[i];
       sum.kinetic.add(0.5 * setup_->density * volumes_[i] * speed2);
@@ -476,8 +528,8 @@ const Observation& GeneralBody<Real>::observe(double pressure) {
   return observation_;
 }
 
-template <class Real>
-Totals GeneralBody<Real>::totals() const {
+template <class Law, class Real>
+Totals GeneralBody<Law, Real>::totals() const {
   Totals totals;
   totals.kinetic = observed_.kinetic.value(comm_);
   totals.strain = observed_.strain.value(comm_);
@@ -493,16 +545,16 @@ Totals GeneralBody<Real>::totals() const {
   return totals;
 }
 
-template <class Real>
-double GeneralBody<Real>::max_displacement() const {
+template <class Law, class Real>
+double GeneralBody<Law, Real>::max_displacement() const {
   double largest = 0;
   for (std::size_t i = 0; i < particles(); ++i)
     largest = std::max(largest, u_[0][i] * u_[0][i] + u_[1][i] * u_[1][i] + u_[2][i] * u_[2][i]);
   return std::sqrt(comm_.all_reduce(largest, parallel::Reduce::max));
 }
 
-template <class Real>
-Body::Saved GeneralBody<Real>::save() const {
+template <class Law, class Real>
+Body::Saved GeneralBody<Law, Real>::save() const {
   return {
       .displacement = u_,
       .leapfrog_velocity = v_,
@@ -514,8 +566,8 @@ Body::Saved GeneralBody<Real>::save() const {
 }
 
 /// Sends the words of owned blocks to the ranks that evaluate them too.
-template <class Real>
-void GeneralBody<Real>::share_words() {
+template <class Law, class Real>
+void GeneralBody<Law, Real>::share_words() {
   std::vector<float> words(family_.words.begin(), family_.words.end());  // 16 bits fit exactly
   parallel::HaloExchange<float> exchange(
       comm_,
@@ -531,8 +583,8 @@ void GeneralBody<Real>::share_words() {
     family_.words[slot] = static_cast<std::uint16_t>(words[slot]);
 }
 
-template <class Real>
-void GeneralBody<Real>::restore(const Saved& saved) {
+template <class Law, class Real>
+void GeneralBody<Law, Real>::restore(const Saved& saved) {
   u_ = saved.displacement;
   v_ = saved.leapfrog_velocity;
   first_kick_pending_ = saved.first_kick_pending;
@@ -553,8 +605,12 @@ void GeneralBody<Real>::restore(const Saved& saved) {
 }  // namespace
 
 std::unique_ptr<Body> make_body(std::shared_ptr<const GeneralSetup> setup, parallel::Communicator comm) {
-  if (setup->double_bonds) return std::make_unique<GeneralBody<double>>(std::move(setup), comm);
-  return std::make_unique<GeneralBody<float>>(std::move(setup), comm);
+  return std::visit(
+      [&]<class Law>(const Law&) -> std::unique_ptr<Body> {
+        if (setup->double_bonds) return std::make_unique<GeneralBody<Law, double>>(setup, comm);
+        return std::make_unique<GeneralBody<Law, float>>(setup, comm);
+      },
+      setup->law);
 }
 
 }  // namespace rhexis::peridynamics

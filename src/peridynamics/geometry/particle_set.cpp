@@ -39,6 +39,9 @@ ParticleSet tube_particles(const Lattice& lattice) {
     for (std::int64_t row = 0; row < lattice.rows; ++row) {
       const std::size_t i = set.size();
       add_particle(set, {s.x[c], s.y[c], lattice.height(row)}, lattice.volume(c));
+      set.frame.push_back({.radial = {static_cast<float>(nx), static_cast<float>(ny), 0},
+                           .axial = {0, 0, 1},
+                           .depth = static_cast<float>((r - first + half) / (last - first + 2 * half))});
       if (innermost) {
         const double area = (r - half) * angle * dz;
         set.surface.push_back({i, {-half * nx, -half * ny, 0}, {-area * nx, -area * ny, 0}, true});
@@ -101,6 +104,11 @@ ParticleSet sphere_particles(double inner_radius, double outer_radius, std::size
       const std::size_t i = set.size();
       const double r = below + h / 2;
       add_particle(set, {r * normal[0], r * normal[1], r * normal[2]}, volume);
+      const auto single = [](double number) { return static_cast<float>(number); };
+      set.frame.push_back(
+          {.radial = {single(normal[0]), single(normal[1]), single(normal[2])},
+           .axial = {single(-z * std::cos(turn)), single(-z * std::sin(turn)), single(across)},
+           .depth = single((r - inner_radius) / (outer_radius - inner_radius))});
       const auto patch_at = [&](double surface, double side, bool loaded) {
         const double area = side * 4 * pi * surface * surface / static_cast<double>(points);
         SurfacePatch patch{i, {}, {}, loaded};
@@ -157,6 +165,7 @@ ParticleSet reordered(const ParticleSet& set, const std::vector<std::size_t>& or
   for (std::size_t i = 0; i < order.size(); ++i) {
     add_particle(result, set.at(order[i]), set.volume[order[i]]);
     place[order[i]] = i;
+    if (!set.frame.empty()) result.frame.push_back(set.frame[order[i]]);
   }
   result.surface = set.surface;
   for (SurfacePatch& patch : result.surface) patch.particle = place[patch.particle];

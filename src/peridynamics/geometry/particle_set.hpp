@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "peridynamics/geometry/cross_section.hpp"
+#include "peridynamics/geometry/wall_frame.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -29,6 +30,7 @@ struct ParticleSet {
   std::array<std::vector<double>, 3> position = {};  ///< m
   std::vector<double> volume = {};                   ///< m3
   std::vector<SurfacePatch> surface = {};
+  std::vector<WallFrame> frame = {};  ///< [particles]; empty: the body is no wall
 
   std::size_t size() const { return volume.size(); }
   Vector3 at(std::size_t i) const { return {position[0][i], position[1][i], position[2][i]}; }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/parameter.hpp"
+#include "peridynamics/laws/correspondence/wall_layers.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -17,6 +18,11 @@ struct LawChoice {
   std::string name = "pmb";
   double poisson_ratio = 0.25;
   std::map<std::string, std::optional<double>> numbers = {};  ///< by name, such as "fung_exponent"
+  LayerInput wall = {};                                       ///< of law "fibre_reinforced"
+
+  /// Whether the law is evaluated at the deformation gradient (laws/correspondence), by the general engine;
+  /// else it is one of bonds.
+  bool by_gradient() const;
 
   /// A number that the law needs; throws std::out_of_range where it was not given.
   double number(const std::string& key) const {

@@ -69,6 +69,11 @@ using std::expm1;
 using std::max;
 using std::sqrt;
 
+template <std::floating_point X>
+HWY_INLINE X multiply_add(X a, X b, X c) {
+  return a * b + c;
+}
+
 /// Whether 1/sqrt has an approximation in X that is quicker than a root and a division, and 1 for 1.
 template <Number X>
 inline constexpr bool has_approximate_inverse_sqrt = false;

@@ -16,6 +16,9 @@ void resolve_from_rate(Parameters& p) {
     throw InputError("give either material.critical_stretch or material.energy_release_rate, not both",
                      "material.energy_release_rate");
   }
+  if (p.law.by_gradient())
+    throw InputError("not for material.law = \"" + p.law.name + "\"; give material.critical_stretch",
+                     "material.energy_release_rate");
   const double rate = *std::exchange(p.energy_release_rate, std::nullopt);
   const double stretch = with_law(p.law, [&]<class Law>(const Law& law) -> double {
     if constexpr (Law::state_based) {
@@ -47,6 +50,7 @@ void resolve_critical_stretch(Parameters& p) {
 
 std::string describe_strength(const Parameters& p) {
   const std::string stretch = "critical stretch " + text(*p.critical_stretch);
+  if (p.law.by_gradient()) return stretch;
   return with_law(p.law, [&]<class Law>(const Law& law) {
     if constexpr (Law::state_based) return stretch;
     const double rate = law.energy_release_rate(p.young_modulus, *p.horizon, *p.critical_stretch);

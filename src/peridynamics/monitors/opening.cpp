@@ -70,9 +70,11 @@ std::vector<std::size_t> empty_runs(std::span<const std::uint64_t> row) {
 }  // namespace
 
 OpeningGauge::OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm,
-                           EndCondition ends, const ThinSpots& thin_spots)
+                           EndCondition ends, const ThinSpots& thin_spots,
+                           std::span<const std::int64_t> lattice_number)
     : lattice_(&lattice),
       body_(&body),
+      places_(body, lattice, lattice_number),
       comm_(comm),
       periodic_(ends == EndCondition::axial_periodic),
       thin_spots_(thin_spots),
@@ -104,40 +106,34 @@ struct OpeningGauge::Rows {
   std::vector<double> lowest, highest;  ///< m, [rows][sectors]
 };
 
-void OpeningGauge::look_at(std::size_t column, Rows& rows) const {
-  const ColumnLayout& layout = *body_->columns();
+void OpeningGauge::look_at(std::size_t begin, std::size_t end, Rows& rows) const {
   const auto u = body_->displacement();
-  const std::size_t words = bins_ / 64,
-                    sector = sector_of_[static_cast<std::size_t>(layout.first_column) + column];
-  std::size_t i = layout.particle(static_cast<std::int64_t>(column), 0);
-  const std::size_t c = static_cast<std::size_t>(layout.first_column) + column;
-  const double x = lattice_->section.x[c], y = lattice_->section.y[c];
-  for (std::int64_t r = 0; r < layout.row_count; ++r, ++i) {
-    const double z = lattice_->height(layout.first_row + r);
+  const std::size_t words = bins_ / 64;
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto [column, row] = places_.of(i);
+    const double x = lattice_->section.x[column], y = lattice_->section.y[column],
+                 z = lattice_->height(static_cast<std::int64_t>(row));
     if (!thin_spots_.none() && !thin_spots_.present(x, y, z)) continue;
     const double px = x + u[0][i], py = y + u[1][i], pz = z + u[2][i];
-    const auto row = static_cast<std::size_t>(layout.first_row + r);
     const auto bin = std::min(bins_ - 1, static_cast<std::size_t>(turn(px, py) * static_cast<double>(bins_)));
     rows.occupied[row * words + bin / 64] |= std::uint64_t{1} << (bin % 64);
     ++rows.particles[row];
     rows.radii[row] += std::llround(std::min(std::sqrt(px * px + py * py) / radius_quantum_, 0x1p40));
-    const std::size_t place = row * sectors_ + sector;
+    const std::size_t place = row * sectors_ + sector_of_[column];
     rows.lowest[place] = std::min(rows.lowest[place], pz);
     rows.highest[place] = std::max(rows.highest[place], pz);
   }
 }
 
 double OpeningGauge::area() const {
-  const ColumnLayout& layout = *body_->columns();
   const std::size_t words = bins_ / 64;
   const double bin_width = 2 * std::numbers::pi / static_cast<double>(bins_);
   const int threads = parallel::thread_count();
   std::vector<Rows> seen(static_cast<std::size_t>(threads),
-                         Rows(*this, static_cast<std::size_t>(layout.rows)));
-  parallel::for_each_share(threads, static_cast<std::size_t>(layout.column_count),
+                         Rows(*this, static_cast<std::size_t>(lattice_->rows)));
+  parallel::for_each_share(threads, body_->displacement()[0].size(),
                            [&](int thread, std::size_t begin, std::size_t end) {
-                             for (std::size_t c = begin; c < end; ++c)
-                               look_at(c, seen[static_cast<std::size_t>(thread)]);
+                             look_at(begin, end, seen[static_cast<std::size_t>(thread)]);
                            });
   auto& [occupied, radii, particles, lowest, highest] = seen.front();
   const auto merge = [](auto& into, const auto& from, const auto& how) {
@@ -178,39 +174,32 @@ double OpeningGauge::area() const {
   return area;
 }
 
-LumenGauge::LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm)
-    : lattice_(&lattice), body_(&body), comm_(comm) {
+LumenGauge::LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm,
+                       std::span<const std::int64_t> lattice_number)
+    : lattice_(&lattice), body_(&body), places_(body, lattice, lattice_number), comm_(comm) {
   const CrossSection& s = lattice.section;
   double least = INFINITY;
   for (std::size_t c = 0; c < s.size(); ++c) least = std::min(least, std::hypot(s.x[c], s.y[c]));
-  for (std::size_t c = 0; c < s.size(); ++c) {
-    if (std::hypot(s.x[c], s.y[c]) < least + 0.75 * lattice.spacing) {
-      innermost_.push_back(static_cast<std::int64_t>(c));
-    }
-  }
+  for (std::size_t c = 0; c < s.size(); ++c)
+    innermost_.push_back(std::hypot(s.x[c], s.y[c]) < least + 0.75 * lattice.spacing);
+  innermost_count_ = std::ranges::count(innermost_, true);
 }
 
 std::vector<double> LumenGauge::stretch_of_rows() const {
   constexpr double quantum = 0x1p-40;  // of stretch: sums of integers do not depend on ranks
-  const ColumnLayout& layout = *body_->columns();
   const auto u = body_->displacement();
-  std::vector<std::int64_t> stretch(static_cast<std::size_t>(layout.rows));
-  for (const std::int64_t column : innermost_) {
-    const std::int64_t c = column - layout.first_column;
-    if (c < 0 || c >= layout.column_count) continue;
-    const double x = lattice_->section.x[static_cast<std::size_t>(column)],
-                 y = lattice_->section.y[static_cast<std::size_t>(column)];
-    for (std::int64_t r = 0; r < layout.row_count; ++r) {
-      const std::size_t i = layout.particle(c, r);
-      const double now = std::hypot(x + u[0][i], y + u[1][i]);
-      stretch[static_cast<std::size_t>(layout.first_row + r)] +=
-          std::llround(std::min(now / std::hypot(x, y), 1e4) / quantum);
-    }
+  std::vector<std::int64_t> stretch(static_cast<std::size_t>(lattice_->rows));
+  for (std::size_t i = 0; i < u[0].size(); ++i) {
+    const auto [column, row] = places_.of(i);
+    if (!innermost_[column]) continue;
+    const double x = lattice_->section.x[column], y = lattice_->section.y[column];
+    const double now = std::hypot(x + u[0][i], y + u[1][i]);
+    stretch[row] += std::llround(std::min(now / std::hypot(x, y), 1e4) / quantum);
   }
   comm_.all_reduce(stretch, parallel::Reduce::sum);
   std::vector<double> mean;
   for (const std::int64_t s : stretch)
-    mean.push_back(static_cast<double>(s) * quantum / static_cast<double>(innermost_.size()));
+    mean.push_back(static_cast<double>(s) * quantum / static_cast<double>(innermost_count_));
   return mean;
 }
 

@@ -3,12 +3,43 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "parallel/communicator.hpp"
 #include "peridynamics/engine/body.hpp"
 
 namespace rhexis::peridynamics {
+
+/// Where the owned particles of a tube stand in its lattice.
+class TubePlaces {
+ public:
+  /// `lattice_number`: column * rows + row of each particle of the body; empty: its id.
+  TubePlaces(const Body& body, const Lattice& lattice, std::span<const std::int64_t> lattice_number)
+      : rows_(lattice.rows), lattice_number_(lattice_number) {
+    if (const ColumnLayout* const columns = body.columns(); columns != nullptr) {
+      first_ = columns->first_column * rows_ + columns->first_row;
+      row_count_ = columns->row_count;
+    } else {
+      first_ = body.ids().ranges.front().first;
+    }
+  }
+
+  struct Place {
+    std::size_t column, row;
+  };
+  Place of(std::size_t particle) const {
+    const auto i = static_cast<std::int64_t>(particle);
+    const std::int64_t number = lattice_number_.empty()
+                                    ? first_ + i / row_count_ * rows_ + i % row_count_
+                                    : lattice_number_[static_cast<std::size_t>(first_ + i)];
+    return {static_cast<std::size_t>(number / rows_), static_cast<std::size_t>(number % rows_)};
+  }
+
+ private:
+  std::int64_t rows_, first_ = 0, row_count_ = 0;
+  std::span<const std::int64_t> lattice_number_;
+};
 
 /// Area of the holes through a wall, from the gaps that its particles leave around the axis.
 ///
@@ -24,9 +55,9 @@ namespace rhexis::peridynamics {
 /// so the result does not depend on ranks.
 class OpeningGauge {
  public:
-  /// Measures a body of columns; it and `lattice` must live on.
+  /// Measures a tube; references and `lattice_number` (see TubePlaces) must live on.
   OpeningGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm, EndCondition ends,
-               const ThinSpots& thin_spots = {});
+               const ThinSpots& thin_spots = {}, std::span<const std::int64_t> lattice_number = {});
 
   /// Memory that this takes on all ranks: what it knows of rows. `across`: spacings across the wall.
   static double bytes(double particles, double across, int threads) {
@@ -38,11 +69,12 @@ class OpeningGauge {
 
  private:
   struct Rows;
-  /// Adds the particles of one of this rank's columns.
-  void look_at(std::size_t column, Rows& rows) const;
+  /// Adds the particles [begin, end) of this rank.
+  void look_at(std::size_t begin, std::size_t end, Rows& rows) const;
 
   const Lattice* lattice_;
   const Body* body_;
+  TubePlaces places_;
   parallel::Communicator comm_;
   bool periodic_;
   ThinSpots thin_spots_;
@@ -56,8 +88,9 @@ class OpeningGauge {
 /// How wide the lumen is, measured on the innermost particles of each axial row.
 class LumenGauge {
  public:
-  /// Measures a body of columns; it and `lattice` must live on.
-  LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm);
+  /// Measures a tube; references and `lattice_number` (see TubePlaces) must live on.
+  LumenGauge(const Lattice& lattice, const Body& body, parallel::Communicator comm,
+             std::span<const std::int64_t> lattice_number = {});
 
   /// Resistance to flow by Eq. (9) of the deformed vessel over that of the undeformed: the mean over rows of
   /// (r0 / r)^4, where r / r0 is the mean stretch of the distance from the axis of the row's innermost
@@ -74,8 +107,10 @@ class LumenGauge {
 
   const Lattice* lattice_;
   const Body* body_;
+  TubePlaces places_;
   parallel::Communicator comm_;
-  std::vector<std::int64_t> innermost_;  ///< columns, ascending
+  std::vector<bool> innermost_;   ///< [columns]
+  std::int64_t innermost_count_;  ///< how many columns are
 };
 
 }  // namespace rhexis::peridynamics

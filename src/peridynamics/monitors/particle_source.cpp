@@ -9,7 +9,7 @@
 namespace rhexis::peridynamics {
 namespace {
 
-constexpr FieldInfo known_fields[] = {
+constexpr FieldInfo fields_of_all_laws[] = {
     {"displacement", "m", 3},
     {"velocity", "m s-1", 3},
     {"force_density", "N m-3", 3},
@@ -29,7 +29,16 @@ FieldView scalar_view(const FieldInfo& info, const std::vector<double>& values) 
 }  // namespace
 
 std::span<const FieldInfo> ParticleSource::all_fields() {
-  return known_fields;
+  static const std::vector<FieldInfo> all = [] {
+    std::vector<FieldInfo> fields(std::begin(fields_of_all_laws), std::end(fields_of_all_laws));
+    fields.insert(fields.end(), stress_fields().begin(), stress_fields().end());
+    return fields;
+  }();
+  return all;
+}
+
+std::span<const FieldInfo> ParticleSource::fields_of(bool law_by_gradient) {
+  return law_by_gradient ? all_fields() : std::span<const FieldInfo>(fields_of_all_laws);
 }
 
 void ParticleSource::moment(long step, double time_s, const Observation& observation,
@@ -39,6 +48,7 @@ void ParticleSource::moment(long step, double time_s, const Observation& observa
   observation_ = &observation;
   annotations_ = std::move(annotations);
   positions_valid_ = false;
+  stress_valid_ = false;
 }
 
 /// Reference positions plus u(component, particle).
@@ -70,7 +80,7 @@ FieldView ParticleSource::reference_positions() {
 
 FieldView ParticleSource::field(std::string_view name) {
   const FieldInfo* info = nullptr;
-  for (const FieldInfo& known : known_fields) {
+  for (const FieldInfo& known : fields()) {
     if (known.name == name) info = &known;
   }
   if (!info) throw std::out_of_range("no field " + std::string(name));
@@ -78,7 +88,10 @@ FieldView ParticleSource::field(std::string_view name) {
   if (name == "velocity") return vector_view(*info, observation_->velocity);
   if (name == "force_density") return vector_view(*info, observation_->force_density);
   if (name == "strain_energy_density") return scalar_view(*info, observation_->strain_energy_density);
-  return scalar_view(*info, observation_->damage);
+  if (name == "damage") return scalar_view(*info, observation_->damage);
+  if (!stress_valid_) stress_.evaluate(*body_);
+  stress_valid_ = true;
+  return scalar_view(*info, stress_.values(name));
 }
 
 }  // namespace rhexis::peridynamics

@@ -8,10 +8,10 @@ namespace {
 
 class TubeGauge final : public WallGauge {
  public:
-  TubeGauge(const BodySetup& setup, const Body& body, parallel::Communicator comm)
-      : lattice_(setup.lattice),
-        opening_(lattice_, body, comm, setup.ends, setup.thin_spots),
-        lumen_(lattice_, body, comm) {}
+  TubeGauge(const WallModel& wall, const Body& body, parallel::Communicator comm)
+      : lattice_(wall.lattice()),
+        opening_(lattice_, body, comm, wall.setup.ends, wall.setup.thin_spots, wall.general.lattice_number),
+        lumen_(lattice_, body, comm, wall.general.lattice_number) {}
   double open_area() const override { return opening_.area(); }
   double resistance_factor() const override { return lumen_.resistance_factor(); }
   double largest_lumen_stretch() const override { return lumen_.largest_stretch(); }
@@ -24,8 +24,8 @@ class TubeGauge final : public WallGauge {
 
 }  // namespace
 
-std::unique_ptr<WallGauge> make_gauge(const BodySetup& setup, const Body& body, parallel::Communicator comm) {
-  return std::make_unique<TubeGauge>(setup, body, comm);
+std::unique_ptr<WallGauge> make_gauge(const WallModel& wall, const Body& body, parallel::Communicator comm) {
+  return std::make_unique<TubeGauge>(wall, body, comm);
 }
 
 }  // namespace rhexis::peridynamics

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "parallel/communicator.hpp"
-#include "peridynamics/engine/body.hpp"
+#include "peridynamics/wall_model.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -22,7 +22,7 @@ class WallGauge {
   virtual double largest_lumen_stretch() const = 0;
 };
 
-/// The gauge for a body of columns (opening.hpp), the only kind there is. `body` must live on. Collective.
-std::unique_ptr<WallGauge> make_gauge(const BodySetup& setup, const Body& body, parallel::Communicator comm);
+/// The gauge for a tube (opening.hpp), the only kind there is. `wall` and `body` must live on. Collective.
+std::unique_ptr<WallGauge> make_gauge(const WallModel& wall, const Body& body, parallel::Communicator comm);
 
 }  // namespace rhexis::peridynamics

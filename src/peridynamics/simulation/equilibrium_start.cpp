@@ -16,7 +16,7 @@ Equilibrium start_at_equilibrium(VesselSimulation& simulation, const WallModel& 
                                  parallel::Communicator comm) {
   const Parameters& v = wall.parameters;
   Body& body = simulation.body();
-  Equilibrium found = find_equilibrium(wall.setup, v.equilibrium_pressure, v.equilibrium_tolerance, comm);
+  Equilibrium found = find_equilibrium(wall, v.equilibrium_pressure, v.equilibrium_tolerance, comm);
 
   std::array<std::vector<double>, 3> at_rest;
   for (std::vector<double>& component : at_rest) component.assign(found.displacement[0].size(), 0.0);

@@ -17,9 +17,9 @@ VesselSimulation::VesselSimulation(const WallModel& wall, parallel::Communicator
       time_(wall.time),
       comm_(comm),
       particles_(wall.particles()),
-      body_(make_body(wall.setup, comm)),
+      body_(make_body(wall, comm)),
       particle_source_(*body_),
-      gauge_(make_gauge(wall.setup, *body_, comm)) {}
+      gauge_(make_gauge(wall, *body_, comm)) {}
 
 double VesselSimulation::scheduled_pressure_at(long step) const {
   return scheduled_pressure(p_, time_at(step));

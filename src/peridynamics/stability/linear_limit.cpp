@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "peridynamics/engine/general_body.hpp"
+#include "peridynamics/tube_setup.hpp"
+
 namespace rhexis::peridynamics {
 namespace {
 
@@ -13,12 +16,10 @@ using Field = std::array<std::vector<double>, 3>;
 /// The operator A = -M^-1 K of accelerations, self-adjoint where particles are weighted by their volumes.
 class Accelerations {
  public:
-  explicit Accelerations(const BodySetup& setup)
-      : body_(make_body(periodic_piece(setup), parallel::Communicator::self())),
-        size_(1e-5 * setup.lattice.spacing),
-        density_(setup.density),
-        volume_(body_->volumes()) {
-    for (double& volume : volume_) volume /= std::pow(setup.lattice.spacing, 3);
+  /// A body of particles `spacing` (m) apart.
+  Accelerations(std::unique_ptr<Body> body, double spacing, double density)
+      : body_(std::move(body)), size_(1e-5 * spacing), density_(density), volume_(body_->volumes()) {
+    for (double& volume : volume_) volume /= std::pow(spacing, 3);
     for (std::vector<double>& component : rest_) component.assign(volume_.size(), 0.0);
   }
 
@@ -39,7 +40,7 @@ class Accelerations {
       for (double& x : component) x *= size_;
     }
     body_->set_state(u, rest_);
-    u = body_->observe(0).force_density;
+    u = body_->force_density(0);
     for (std::vector<double>& component : u) {
       for (double& x : component) x /= -density_ * size_;
     }
@@ -47,16 +48,6 @@ class Accelerations {
   }
 
  private:
-  /// A periodic piece of the uniform wall, of as few rows as hold a family and the shortest axial waves.
-  static BodySetup periodic_piece(BodySetup setup) {
-    setup.lattice.rows = 2 * setup.families->reach + 2;
-    setup.ends = EndCondition::axial_periodic;
-    setup.double_bonds = true;
-    setup.heterogeneity = {};
-    setup.thin_spots = {};
-    return setup;
-  }
-
   std::unique_ptr<Body> body_;
   double size_;  ///< m
   double density_;
@@ -87,11 +78,19 @@ double largest_eigenvalue(const std::vector<double>& diagonal, const std::vector
   return high;
 }
 
-}  // namespace
+/// A periodic piece of the uniform wall, of as few rows as hold a family and the shortest axial waves.
+BodySetup periodic_piece(BodySetup setup) {
+  setup.lattice.rows = 2 * setup.families->reach + 2;
+  setup.ends = EndCondition::axial_periodic;
+  setup.double_bonds = true;
+  setup.heterogeneity = {};
+  setup.thin_spots = {};
+  return setup;
+}
 
-double linear_time_step_limit(const BodySetup& setup) {
+/// s, by Lanczos' method.
+double time_step_limit(Accelerations accelerations) {
   constexpr int iterations = 60;
-  Accelerations accelerations(setup);
   const std::size_t n = accelerations.size();
   Field now, before;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -120,6 +119,23 @@ double linear_time_step_limit(const BodySetup& setup) {
     before = std::exchange(now, std::move(next));
   }
   return 2 / std::sqrt(largest_eigenvalue(diagonal, beside));
+}
+
+}  // namespace
+
+double linear_time_step_limit(const BodySetup& setup) {
+  return time_step_limit({make_body(periodic_piece(setup), parallel::Communicator::self()),
+                          setup.lattice.spacing, setup.density});
+}
+
+double linear_time_step_limit(const Parameters& p, const Lattice& lattice) {
+  return time_step_limit({make_body(make_short_tube(p, lattice).setup, parallel::Communicator::self()),
+                          lattice.spacing, p.density});
+}
+
+double linear_time_step_limit(const WallModel& wall) {
+  return wall.by_gradient() ? linear_time_step_limit(wall.parameters, wall.lattice())
+                            : linear_time_step_limit(wall.setup);
 }
 
 double linear_limit_bytes(const Parameters& p, const WallSize& size) {

@@ -2,7 +2,7 @@
 /// Where velocity Verlet really begins to be unstable, while strains are small.
 #pragma once
 
-#include "peridynamics/engine/body.hpp"
+#include "peridynamics/wall_model.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -11,6 +11,11 @@ namespace rhexis::peridynamics {
 /// piece of the wall, by Lanczos' method on the engine's own forces: the free ends of a vessel only take
 /// stiffness away. Works alone, on the calling rank.
 double linear_time_step_limit(const BodySetup& setup);
+
+/// The same of a law by gradient, of a short piece of the tube.
+double linear_time_step_limit(const Parameters& p, const Lattice& lattice);
+/// The same of a wall of any law.
+double linear_time_step_limit(const WallModel& wall);
 
 /// Memory that finding it takes.
 double linear_limit_bytes(const Parameters& p, const WallSize& size);

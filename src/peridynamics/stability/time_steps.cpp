@@ -11,6 +11,7 @@
 #include "peridynamics/laws/all_laws.hpp"
 #include "peridynamics/stability/bond_step.hpp"
 #include "peridynamics/stability/dilatation_bound.hpp"
+#include "peridynamics/stability/linear_limit.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -38,9 +39,15 @@ double stable_time_step(const BodySetup& setup) {
   });
 }
 
-TimeSteps time_steps(const Parameters& p, const BodySetup& setup) {
+double stable_time_step(const Parameters& p, const Lattice& lattice) {
+  const double stiffening =
+      std::visit([&](const auto& law) { return law.stiffening(*p.critical_stretch); }, gradient_law(p));
+  return linear_time_step_limit(p, lattice) / ((1 + *p.critical_stretch) * std::sqrt(stiffening));
+}
+
+TimeSteps time_steps(const Parameters& p, double stable) {
   TimeSteps t;
-  t.stable = stable_time_step(setup);
+  t.stable = stable;
   t.step = p.time_step.value_or(p.step_fraction * t.stable);
   if (t.step > t.stable && !p.allow_unstable) {
     throw InputError("the run would be unstable; the largest stable time step of this discretisation is " +

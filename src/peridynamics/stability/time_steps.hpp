@@ -19,8 +19,13 @@ struct TimeSteps {
 /// compressed no more than those that break are stretched. `setup.time_step` is not read.
 double stable_time_step(const BodySetup& setup);
 
+/// The same of a law by gradient: the limit of linear stability of a short piece of the tube, found by
+/// Lanczos' method, over 1 + s0, since cells that are stretched by s0 are as much narrower across, and over
+/// the root of how much fibres stiffen up to s0.
+double stable_time_step(const Parameters& p, const Lattice& lattice);
+
 /// The user's step, or a share of the stable one that divides the end time evenly. Throws InputError for a
 /// step that is unstable, or for far too many.
-TimeSteps time_steps(const Parameters& p, const BodySetup& setup);
+TimeSteps time_steps(const Parameters& p, double stable);
 
 }  // namespace rhexis::peridynamics

@@ -10,7 +10,9 @@
 #include <map>
 
 #include "core/error.hpp"
+#include "peridynamics/engine/general_body.hpp"
 #include "peridynamics/laws/all_laws.hpp"
+#include "peridynamics/statics/small_strain.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -155,6 +157,33 @@ std::optional<ElasticError> elastic_error(const Parameters& p, const BodySetup& 
     const double exact = lame_displacement(p, 1, r);
     error += s.area[i] * (radial - exact) * (radial - exact);
     size += s.area[i] * exact * exact;
+    least = std::min(least, radial / exact);
+    most = std::max(most, radial / exact);
+  }
+  return ElasticError{.relative_l2 = std::sqrt(error / size), .spread = most / least - 1};
+}
+
+std::optional<ElasticError> elastic_error(const WallModel& wall, double most_multiplications) {
+  const Parameters& p = wall.parameters;
+  if (!wall.by_gradient()) return elastic_error(p, wall.setup, most_multiplications);
+  Parameters matrix = p;  // what Lame's solution is one of
+  matrix.law.name = NeoHookean::name;
+  const GeneralTube tube = make_short_tube(matrix, wall.lattice());
+  const auto self = parallel::Communicator::self();
+  const auto body = make_body(tube.setup, self);
+  const ParticleSet& set = tube.setup->geometry->particles;
+  const SmallStrain found = find_small_strain(*body, 1e-5 * set.spacing, 1e-5, self);
+  double error = 0, size = 0, least = INFINITY, most = -INFINITY;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    // In the middle, away from what the ends do.
+    const std::int64_t rows = static_cast<std::int64_t>(set.size() / wall.lattice().section.size());
+    if (const std::int64_t row = tube.lattice_number[i] % rows; row < rows / 4 || row >= rows - rows / 4)
+      continue;
+    const double x = set.position[0][i], y = set.position[1][i], r = std::hypot(x, y);
+    const double radial = (found.displacement[0][i] * x + found.displacement[1][i] * y) / r;
+    const double exact = lame_displacement(p, 1, r);
+    error += set.volume[i] * (radial - exact) * (radial - exact);
+    size += set.volume[i] * exact * exact;
     least = std::min(least, radial / exact);
     most = std::max(most, radial / exact);
   }

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "peridynamics/engine/body.hpp"
+#include "peridynamics/wall_model.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -28,6 +28,9 @@ inline constexpr double bounded_work = 1e10;
 /// hold the wall together.
 std::optional<ElasticError> elastic_error(const Parameters& p, const BodySetup& setup,
                                           double most_multiplications = bounded_work);
+
+/// The same of a wall of any law; of one by gradient in a short piece of the tube, from its forces.
+std::optional<ElasticError> elastic_error(const WallModel& wall, double most_multiplications = bounded_work);
 
 /// Memory that finding it takes.
 double elastic_error_bytes(const Parameters& p, const WallSize& size);

@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "parallel/exact_sum.hpp"
+#include "peridynamics/engine/general_body.hpp"
 #include "peridynamics/stability/time_steps.hpp"
 
 namespace rhexis::peridynamics {
@@ -23,31 +24,33 @@ constexpr int steps_before_decay = 5;
 
 class Relaxation {
  public:
-  Relaxation(BodySetup setup, double pressure, parallel::Communicator comm)
-      : setup_(std::move(setup)), pressure_(pressure), comm_(comm) {
-    // Inertia is only a means here: the longer the step, the fewer are needed, but turned velocities are
-    // not those of leapfrog, and with the whole stable step a wall came to no rest.
-    step_ = 0.65 * stable_time_step(setup_);
-    setup_.critical_stretch = unbreakable;
-    body_ = make_body(BodySetup(setup_), comm);
-    for (std::size_t c = 0; c < setup_.layer.bx.size(); ++c)
-      load_ = std::max(load_, pressure * std::hypot(setup_.layer.bx[c], setup_.layer.by[c]));
-    const auto particles = static_cast<std::size_t>(body_->ids().local_count());
-    volumes_ = body_->volumes();
+  /// A body whose bonds do not break. `volume`: m3, of a usual particle.
+  Relaxation(std::unique_ptr<Body> body, double stable_step, double density, double volume, double pressure,
+             parallel::Communicator comm)
+      : pressure_(pressure),
+        comm_(comm),
+        body_(std::move(body)),
+        // Inertia is only a means here: the longer the step, the fewer are needed, but turned velocities are
+        // not those of leapfrog, and with the whole stable step a wall came to no rest.
+        step_(0.65 * stable_step),
+        load_(pressure * body_->largest_load()),
+        density_(density),
+        usual_volume_(volume),
+        volumes_(body_->volumes()) {
     for (std::size_t k = 0; k < 3; ++k) {
-      displacement_[k].assign(particles, 0.0);
-      velocity_[k].assign(particles, 0.0);
+      displacement_[k].assign(volumes_.size(), 0.0);
+      velocity_[k].assign(volumes_.size(), 0.0);
     }
   }
 
   Equilibrium run(double tolerance, long most_steps) {
     Equilibrium found;
     for (; found.steps < most_steps; ++found.steps) {
-      const Observation& seen = body_->observe(pressure_);
-      force_ = seen.force_density;
+      force_ = body_->force_density(pressure_);
       body_->clear_held(force_);
       found.residual = largest_force() / load_;
       if (found.residual <= tolerance) {
+        const Observation& seen = body_->observe(pressure_);
         found.largest_energy_density = comm_.all_reduce(
             *std::max_element(seen.strain_energy_density.begin(), seen.strain_energy_density.end()),
             parallel::Reduce::max);
@@ -77,10 +80,10 @@ class Relaxation {
 
   /// Velocity, then displacement.
   void step() {
-    const double usual_speed = 100 * load_ / setup_.density * step_;
+    const double usual_speed = 100 * load_ / density_ * step_;
     parallel::ExactSum power(load_ * usual_speed), forces(load_ * load_), speeds(usual_speed * usual_speed);
     for (std::size_t i = 0; i < force_[0].size(); ++i) {
-      const double share = volumes_[i] / setup_.lattice.volume(0);
+      const double share = volumes_[i] / usual_volume_;
       double fv = 0, ff = 0, vv = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         fv += force_[k][i] * velocity_[k][i];
@@ -102,19 +105,19 @@ class Relaxation {
     }
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t i = 0; i < force_[k].size(); ++i) {
-        velocity_[k][i] = kept * velocity_[k][i] + (turned + step_ / setup_.density) * force_[k][i];
+        velocity_[k][i] = kept * velocity_[k][i] + (turned + step_ / density_) * force_[k][i];
         displacement_[k][i] += step_ * velocity_[k][i];
       }
     }
   }
 
-  BodySetup setup_;
   double pressure_;
   parallel::Communicator comm_;
   std::unique_ptr<Body> body_;
-  double step_ = 0;              ///< s
-  double load_ = 0;              ///< N/m3, the largest of the pressure layer
-  std::vector<double> volumes_;  ///< m3
+  double step_;                    ///< s
+  double load_;                    ///< N/m3, the largest of the pressure
+  double density_, usual_volume_;  ///< kg/m3; m3, the unit of volumes in sums
+  std::vector<double> volumes_;    ///< m3
   Field displacement_, velocity_, force_;
   double turn_ = first_turn;
   int downhill_ = 0;  ///< steps since the forces last did no work
@@ -124,7 +127,20 @@ class Relaxation {
 
 Equilibrium find_equilibrium(BodySetup setup, double pressure, double tolerance, parallel::Communicator comm,
                              long most_steps) {
-  return Relaxation(std::move(setup), pressure, comm).run(tolerance, most_steps);
+  const double step = stable_time_step(setup), volume = setup.lattice.volume(0), density = setup.density;
+  setup.critical_stretch = unbreakable;
+  return Relaxation(make_body(std::move(setup), comm), step, density, volume, pressure, comm)
+      .run(tolerance, most_steps);
+}
+
+Equilibrium find_equilibrium(const WallModel& wall, double pressure, double tolerance,
+                             parallel::Communicator comm, long most_steps) {
+  if (!wall.by_gradient()) return find_equilibrium(wall.setup, pressure, tolerance, comm, most_steps);
+  auto setup = std::make_shared<GeneralSetup>(*wall.general.setup);
+  setup->critical_stretch = unbreakable;
+  return Relaxation(make_body(std::move(setup), comm), wall.time.stable, wall.parameters.density,
+                    wall.lattice().volume(0), pressure, comm)
+      .run(tolerance, most_steps);
 }
 
 }  // namespace rhexis::peridynamics

@@ -7,7 +7,7 @@
 /// exact, so that the answer does not depend on ranks and threads.
 #pragma once
 
-#include "peridynamics/engine/body.hpp"
+#include "peridynamics/wall_model.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -28,6 +28,9 @@ inline double equilibrium_bytes(double body_bytes, double particles) {
 
 /// Finds the equilibrium under `pressure` (Pa) to a residual of at most `tolerance`. Throws RunError where
 /// that is not reached in `most_steps`. Collective.
+Equilibrium find_equilibrium(const WallModel& wall, double pressure, double tolerance,
+                             parallel::Communicator comm, long most_steps = 20000);
+/// The same of a tube of columns.
 Equilibrium find_equilibrium(BodySetup setup, double pressure, double tolerance, parallel::Communicator comm,
                              long most_steps = 20000);
 

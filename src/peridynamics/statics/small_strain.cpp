@@ -58,7 +58,7 @@ class Stiffness {
 
  private:
   Field forces(double pressure) {
-    Field force = body_->observe(pressure).force_density;
+    Field force = body_->force_density(pressure);
     body_->clear_held(force);
     for (std::vector<double>& component : force) {
       for (std::size_t i = 0; i < volume_.size(); ++i) component[i] *= volume_[i];

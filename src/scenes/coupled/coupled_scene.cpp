@@ -6,6 +6,7 @@
 #include "core/format.hpp"
 #include "hemodynamics/vessel_lines.hpp"
 #include "input/catalogue.hpp"
+#include "peridynamics/laws/correspondence/fibre_reinforced.hpp"
 #include "peridynamics/monitors/particle_source.hpp"
 
 namespace rhexis::scenes {
@@ -53,6 +54,12 @@ void refuse_coupled_key(const std::string& key, const std::string& place) {
 }
 
 void resolve(CoupledScene& s, const Reading& reading) {
+  check_fields(s.output, s.vessel.law);
+  if (s.vessel.law.name == peridynamics::FibreReinforced::name && (s.is_cascade() || s.coupling.screens()))
+    throw InputError(
+        "vessels at risk are found by Hooke's law, which a wall with fibres does not follow; name the "
+        "vessel (coupling.vessel), or take another law",
+        "material.law");
   resolve_network(s, s.network, reading.comm);
   if (s.network.problem.is_tree() && !s.coupling.screens())
     hemodynamics::check_path(s.network.problem, s.coupling.vessel, "coupling.vessel");
@@ -64,8 +71,9 @@ void resolve(CoupledScene& s, const Reading& reading) {
     s.network.screening.top = std::max<std::int64_t>(1, s.network.screening.top);
   if (s.is_cascade()) warn_of_an_unfinished_ramp(s, s.vessel);
   warn_of_an_old_paraview(s, s.output.format);
-  s.pictures.channels = {{"particles", names_of(peridynamics::ParticleSource::all_fields())},
-                         {"network", names_of(hemodynamics::VesselLines().fields())}};
+  s.pictures.channels = {
+      {"particles", names_of(peridynamics::ParticleSource::fields_of(s.vessel.law.by_gradient()))},
+      {"network", names_of(hemodynamics::VesselLines().fields())}};
   find_scripts(s, s.pictures, reading);
 }
 

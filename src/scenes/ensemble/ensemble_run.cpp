@@ -63,8 +63,9 @@ class EnsembleRun {
         session_(describe(scene_, {}, {}), options, comm,
                  {[this] { return output::Values(results_); },
                   [this] {
-                    return runtime::Work{.bond_evaluations = bond_evaluations_,
-                                         .flop_per_evaluation = 0.5 * peridynamics::flop_per_bond};
+                    return runtime::Work{
+                        .bond_evaluations = bond_evaluations_,
+                        .flop_per_evaluation = peridynamics::flop_per_evaluation(*scene_.wall)};
                   }}) {
     if (session_.restarts())
       throw InputError(

@@ -50,16 +50,18 @@ void VesselRun::print_header() {
   session_.console().item("bonds",
                           fmt::format("{}, at most {} a particle, {} precision", grouped(*results_.bonds),
                                       *results_.family_max, name_of(v.bond_precision)));
+  if (v.law.by_gradient())
+    session_.console().item("law", fmt::format("{}, Poisson's ratio {:g}", v.law.name, v.law.poisson_ratio));
   session_.console().item("strength", peridynamics::describe_strength(v));
   session_.console().item(
       "time", fmt::format("{} steps of {} ({:.0f} % of the stable {})", c_.wall->time.count - first_step_,
                           quantity(c_.wall->time.step, "s"), 100 * c_.wall->time.step / c_.wall->time.stable,
                           quantity(c_.wall->time.stable, "s")));
   session_.console().item(
-      "load",
-      fmt::format("{} ({}) {}, layer {}, venting {}", quantity(peridynamics::highest_pressure(v), "Pa"),
-                  peridynamics::describe_schedule(v), peridynamics::describe_direction(v), name_of(v.layer),
-                  name_of(v.venting)));
+      "load", fmt::format("{} ({}) {}{}, venting {}", quantity(peridynamics::highest_pressure(v), "Pa"),
+                          peridynamics::describe_schedule(v), peridynamics::describe_direction(v),
+                          v.law.by_gradient() ? "" : fmt::format(", layer {}", name_of(v.layer)),
+                          name_of(v.venting)));
   if (network_ != nullptr) {
     network_->print_header(session_.console(), c_.wall->time.step);
   } else {

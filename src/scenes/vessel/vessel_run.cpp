@@ -85,8 +85,7 @@ runtime::Ending VesselRun::run() {
 
 void VesselRun::build() {
   simulation_ = std::make_unique<peridynamics::VesselSimulation>(*c_.wall, comm_);
-  results_.family_max =
-      peridynamics::largest_family(c_.wall->lattice(), c_.wall->families(), c_.wall->is_periodic());
+  results_.family_max = peridynamics::count_bonds(*c_.wall).largest_family;
   results_.time_step_s = c_.wall->time.step;
   results_.stable_time_step_s = c_.wall->time.stable;
   results_.particles = simulation_->particles();
@@ -145,7 +144,7 @@ std::optional<output::PointSeriesPlan> VesselRun::series_plan() {
 
 runtime::Work VesselRun::work() const {
   return {.bond_evaluations = start_bond_evaluations_ + simulation_->body().bond_evaluations(),
-          .flop_per_evaluation = 0.5 * peridynamics::flop_per_bond,
+          .flop_per_evaluation = peridynamics::flop_per_evaluation(*c_.wall),
           .traffic = simulation_->body().traffic(),
           .network_flop = network_ != nullptr ? network_->flop() : std::nullopt};
 }

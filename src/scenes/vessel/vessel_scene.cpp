@@ -56,12 +56,14 @@ ParameterList declare(VesselScene& s) {
 }
 
 void resolve(VesselScene& s, const Reading& reading) {
+  check_fields(s.output, s.vessel.law);
   read_table(s, reading.comm);
   resolve_wall(s, demand_of(s.output, s.pictures, reading), reading);
   if (s.output.fields.empty()) warn_of_no_effect(s, "output.format", "without output.fields");
   warn_of_a_load_beyond_all(s);
   if (!s.output.fields.empty()) warn_of_an_old_paraview(s, s.output.format);
-  s.pictures.channels = {{"particles", names_of(peridynamics::ParticleSource::all_fields())}};
+  s.pictures.channels = {
+      {"particles", names_of(peridynamics::ParticleSource::fields_of(s.vessel.law.by_gradient()))}};
   find_scripts(s, s.pictures, reading);
 }
 

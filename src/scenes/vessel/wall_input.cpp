@@ -56,8 +56,19 @@ void warn_of_the_wall(SceneInput& s, const peridynamics::WallModel& wall) {
 
 ParameterList declare_wall(peridynamics::Parameters& vessel, output::Parameters& output) {
   ParameterList all = peridynamics::declare(vessel);
-  append(all, output::declare(output, names_of(peridynamics::ParticleSource::all_fields())));
+  append(all, output::declare(output, names_of(peridynamics::ParticleSource::fields_of(false)),
+                              names_of(peridynamics::ParticleSource::all_fields())));
   return all;
+}
+
+void check_fields(const output::Parameters& output, const peridynamics::LawChoice& law) {
+  const std::vector<std::string> known = names_of(peridynamics::ParticleSource::fields_of(law.by_gradient()));
+  for (const std::string& field : output.fields) {
+    if (std::ranges::find(known, field) == known.end())
+      throw InputError("\"" + field + "\" is known of a law by deformation gradient only (material.law = " +
+                           "\"neo_hookean\" or \"fibre_reinforced\")",
+                       "output.fields");
+  }
 }
 
 peridynamics::WallDemand demand_of(const output::Parameters& output, const runtime::PicturesPlan& pictures,
@@ -94,7 +105,7 @@ void warn_of_an_unfinished_ramp(SceneInput& s, const peridynamics::Parameters& v
 }
 
 std::optional<double> risk_of_load(const peridynamics::Parameters& v) {
-  if (v.law.name == "fung") return {};
+  if (v.law.name == "fung" || v.law.name == "fibre_reinforced") return {};
   return screening::risk({*v.critical_stretch, v.young_modulus, v.law.poisson_ratio, 0},
                          peridynamics::highest_pressure(v), v.outer_radius / v.inner_radius - 1, {1, 1});
 }

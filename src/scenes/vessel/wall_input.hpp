@@ -14,6 +14,9 @@ namespace rhexis::scenes {
 /// The keys of a vessel's wall, its load and its output.
 ParameterList declare_wall(peridynamics::Parameters& vessel, output::Parameters& output);
 
+/// Throws InputError for a field of output.fields that the law does not have.
+void check_fields(const output::Parameters& output, const peridynamics::LawChoice& law);
+
 /// What a run of one wall, dealt out among all ranks, asks of memory.
 peridynamics::WallDemand demand_of(const output::Parameters& output, const runtime::PicturesPlan& pictures,
                                    const Reading& reading);

@@ -59,7 +59,8 @@ ParameterList declare(Parameters& p) {
       {.key = "ensemble.stiffness_spread",
        .target = &p.stiffness_spread,
        .unit = "1",
-       .meaning = "The same of their Young's modulus, a factor on material.young_modulus.",
+       .meaning = "The same of their stiffness, a factor on material.young_modulus (or on the moduli of "
+                  "layers and fibres).",
        .range = Range::between(0, 1)},
   };
 }

@@ -22,7 +22,7 @@ SampledWall draw_wall(const Parameters& p, std::int64_t wall) {
 peridynamics::Parameters with_wall(peridynamics::Parameters v, const SampledWall& f) {
   v.outer_radius += (f.thickness - 1) * (v.outer_radius - v.inner_radius);  // exact where the factor is 1
   *v.critical_stretch *= f.strength;
-  v.young_modulus *= f.stiffness;
+  peridynamics::scale_stiffness(v, f.stiffness);
   return v;
 }
 

@@ -3,6 +3,8 @@
 /// without the cancellation that 1 + H would bring.
 #pragma once
 
+#include <array>
+
 #include "peridynamics/laws/numbers.hpp"
 
 namespace rhexis::peridynamics {
@@ -15,6 +17,41 @@ struct Tensor {
 };
 
 template <Number X>
+HWY_INLINE Tensor<X> product(X factor, const Tensor<X>& a) {
+  return {factor * a.xx, factor * a.xy, factor * a.xz, factor * a.yx, factor * a.yy,
+          factor * a.yz, factor * a.zx, factor * a.zy, factor * a.zz};
+}
+
+/// Adds factor a.
+template <Number X>
+HWY_INLINE void add_product(Tensor<X>& sum, X factor, const Tensor<X>& a) {
+  sum.xx = multiply_add(factor, a.xx, sum.xx);
+  sum.xy = multiply_add(factor, a.xy, sum.xy);
+  sum.xz = multiply_add(factor, a.xz, sum.xz);
+  sum.yx = multiply_add(factor, a.yx, sum.yx);
+  sum.yy = multiply_add(factor, a.yy, sum.yy);
+  sum.yz = multiply_add(factor, a.yz, sum.yz);
+  sum.zx = multiply_add(factor, a.zx, sum.zx);
+  sum.zy = multiply_add(factor, a.zy, sum.zy);
+  sum.zz = multiply_add(factor, a.zz, sum.zz);
+}
+
+/// Adds scale a (x) b.
+template <Number X>
+HWY_INLINE void add_dyad(Tensor<X>& sum, X scale, const X (&a)[3], const X (&b)[3]) {
+  const X x = scale * a[0], y = scale * a[1], z = scale * a[2];
+  sum.xx = multiply_add(x, b[0], sum.xx);
+  sum.xy = multiply_add(x, b[1], sum.xy);
+  sum.xz = multiply_add(x, b[2], sum.xz);
+  sum.yx = multiply_add(y, b[0], sum.yx);
+  sum.yy = multiply_add(y, b[1], sum.yy);
+  sum.yz = multiply_add(y, b[2], sum.yz);
+  sum.zx = multiply_add(z, b[0], sum.zx);
+  sum.zy = multiply_add(z, b[1], sum.zy);
+  sum.zz = multiply_add(z, b[2], sum.zz);
+}
+
+template <Number X>
 HWY_INLINE X trace(const Tensor<X>& a) {
   return a.xx + a.yy + a.zz;
 }
@@ -24,6 +61,13 @@ template <Number X>
 HWY_INLINE X contraction(const Tensor<X>& a, const Tensor<X>& b) {
   return a.xx * b.xx + a.xy * b.xy + a.xz * b.xz + a.yx * b.yx + a.yy * b.yy + a.yz * b.yz + a.zx * b.zx +
          a.zy * b.zy + a.zz * b.zz;
+}
+
+/// a b, as an array.
+template <Number X>
+HWY_INLINE std::array<X, 3> times(const Tensor<X>& a, const X (&b)[3]) {
+  return {a.xx * b[0] + a.xy * b[1] + a.xz * b[2], a.yx * b[0] + a.yy * b[1] + a.yz * b[2],
+          a.zx * b[0] + a.zy * b[1] + a.zz * b[2]};
 }
 
 template <Number X>
@@ -44,6 +88,15 @@ struct Deformation {
   Tensor<X> gradient;              ///< H
   Tensor<X> cofactor_of_gradient;  ///< cof H
   X dilation;                      ///< J - 1
+
+  /// F
+  HWY_INLINE Tensor<X> deformation() const {
+    Tensor<X> f = gradient;
+    f.xx = f.xx + X(1);
+    f.yy = f.yy + X(1);
+    f.zz = f.zz + X(1);
+    return f;
+  }
 
   HWY_INLINE X volume_ratio() const { return dilation + X(1); }
   /// tr(F^T F) - 3
