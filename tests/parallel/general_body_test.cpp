@@ -66,12 +66,17 @@ TEST(GeneralBodyOnRanks, GoesOnFromASavedState) {
   const auto world = parallel::Communicator::world();
   const auto whole = burst(world, 250);
   const auto part = burst(world, 200), rest = burst(world, 0);
+  part->advance(1e6, 1e6);
   rest->restore(part->save());
-  for (int i = 200; i < 250; ++i) rest->advance(1e6, 1e6);
+  for (int i = 201; i < 250; ++i) rest->advance(1e6, 1e6);
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < whole->displacement()[k].size(); ++i)
       ASSERT_EQ(whole->displacement()[k][i], rest->displacement()[k][i]);
   }
+  whole->observe(1e6);
+  rest->observe(1e6);
+  EXPECT_EQ(whole->totals().external_work, rest->totals().external_work);
+  EXPECT_EQ(whole->totals().fracture, rest->totals().fracture);
 }
 
 }  // namespace

@@ -141,6 +141,9 @@ class Body {
     std::array<double, 3> frame{};  ///< m, origin of FollowingFrame
     bool wrapped = false;           ///< FollowingFrame::wrapped
     long frame_phase = 0;           ///< steps since the frame last looked at the body's motion
+    /// Of the general engine: force and displacement of the loaded surface at each particle when forces were
+    /// last evaluated, from which the work of the step since then is found. Empty of columns.
+    std::array<std::vector<double>, 6> surface = {};
 
     static double bytes(const BodySize& size) {
       return 6 * size.particles() * sizeof(double) + size.words() * sizeof(std::uint16_t);

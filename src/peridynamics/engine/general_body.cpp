@@ -151,6 +151,14 @@ class GeneralBody final : public Body {
 
   std::vector<const WallFrame*> frames() const;
   void place_load();
+  /// Calls use(last load of the block, lane, particle) for the owned particles of loaded blocks.
+  template <class Self, class Use>
+  static void for_each_loaded(Self& self, const Use& use) {
+    for (std::size_t i = 0; i < self.particles(); ++i) {
+      if (const std::int32_t place = self.load_of_[i / width]; place >= 0)
+        use(self.last_loads_[static_cast<std::size_t>(place)], i % width, i);
+    }
+  }
   void find_reach(std::size_t block, std::size_t lane);
   Vector3 surface_step(std::size_t block, std::size_t lane) const;
   void share_words();
@@ -555,6 +563,14 @@ double GeneralBody<Law, Real>::max_displacement() const {
 
 template <class Law, class Real>
 Body::Saved GeneralBody<Law, Real>::save() const {
+  std::array<std::vector<double>, 6> surface;
+  for (std::vector<double>& component : surface) component.assign(particles(), 0.0);
+  for_each_loaded(*this, [&](const BlockLoad<Real>& load, std::size_t lane, std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      surface[k][i] = load.force[k][lane];
+      surface[3 + k][i] = load.step[k][lane];
+    }
+  });
   return {
       .displacement = u_,
       .leapfrog_velocity = v_,
@@ -562,7 +578,8 @@ Body::Saved GeneralBody<Law, Real>::save() const {
       .first_kick_pending = first_kick_pending_,
       .external_work = account_.work_parts(comm_),
       .released_energy = account_.released_parts(comm_),
-      .load_speed = load_speed_};
+      .load_speed = load_speed_,
+      .surface = std::move(surface)};
 }
 
 /// Sends the words of owned blocks to the ranks that evaluate them too.
@@ -597,9 +614,15 @@ void GeneralBody<Law, Real>::restore(const Saved& saved) {
     intact_bonds_ += std::popcount(family_.words[slot]);
   for (std::size_t block = 0; block < partition_.evaluated_blocks(); ++block) family_.update(block, 0xffff);
   place_load();
+  for_each_loaded(*this, [&](BlockLoad<Real>& load, std::size_t lane, std::size_t i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      load.force[k][lane] = static_cast<Real>(saved.surface[k][i]);
+      load.step[k][lane] = static_cast<Real>(saved.surface[3 + k][i]);
+    }
+  });
   fill_bond_displacement();
   forces_known_ = false;
-  load_moves_ = false;
+  load_moves_ = !first_kick_pending_;
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ void TimeLoop::observe(const Moment& moment) {
   try {
     {
       const Stopwatch watch(*seconds_);
-      simulation_.body().find_forces(
-          simulation_.pressure());  // once, for what is observed and for the next step
+      // Once, for what is observed and for the next step.
+      simulation_.body().find_forces(simulation_.pressure());
     }
     {
       const Stopwatch watch(*wanting.front().seconds);

@@ -21,6 +21,10 @@ void for_each_array(const Body& body, Saved& saved, const Visit& visit) {
     visit(fmt::format("leapfrog_velocity_{}", axes[k]), body.ids(), saved.leapfrog_velocity[k]);
   }
   visit("intact_bonds", body.word_table(), saved.words);
+  for (std::size_t k = 0; k < 3 && !saved.surface[k].empty(); ++k) {
+    visit(fmt::format("surface_force_{}", axes[k]), body.ids(), saved.surface[k]);
+    visit(fmt::format("surface_displacement_{}", axes[k]), body.ids(), saved.surface[3 + k]);
+  }
 }
 
 /// What a wall's state is besides its arrays.
