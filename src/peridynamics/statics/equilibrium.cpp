@@ -59,7 +59,9 @@ class Relaxation {
         found.bond_evaluations = body_->bond_evaluations();
         return found;
       }
-      if (!std::isfinite(found.residual)) break;
+      if (!std::isfinite(found.residual))
+        throw RunError("the wall does not bear " + quantity(pressure_, "Pa") +
+                       ": it widens without end; take a lower pressure");
       step();
       body_->set_state(displacement_, velocity_);
     }
