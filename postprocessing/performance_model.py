@@ -163,7 +163,8 @@ def problem_of(record):
     inner, outer, length = (value("vessel", key) for key in ("inner_radius", "outer_radius", "length"))
     spacing = value("discretisation", "spacing") or (
         math.pi * (outer**2 - inner**2) * length / value("discretisation", "particles")) ** (1 / 3)
-    horizon = value("discretisation", "horizon") or spacing * value("discretisation", "horizon_ratio")
+    usual_ratio = 3.5  # what "auto" is for the laws of bonds, which this model is one of
+    horizon = value("discretisation", "horizon") or spacing * (value("discretisation", "horizon_ratio") or usual_ratio)
     rows = max(1, round(length / spacing))
     columns = round(results["particles"] / rows)
     return Wall(columns, rows, 2 * results["bonds"] / results["particles"], math.floor(horizon / spacing + 1e-9),
