@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "network/disjoint_sets.hpp"
 #include "network/files/vtp/interface.hpp"
 #include "network/lines/segment_index.hpp"
 
@@ -30,26 +31,6 @@ struct LumenRadii {
 inline std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
-
-/// Items that are joined to sets, each known by its smallest item.
-class DisjointSets {
- public:
-  /// `smaller`: [items] a smaller item of the same set, or the item itself.
-  explicit DisjointSets(std::vector<std::size_t> smaller) : smaller_(std::move(smaller)) {}
-  /// A new item, alone in its set.
-  void add() { smaller_.push_back(smaller_.size()); }
-  std::size_t of(std::size_t item) {
-    while (smaller_[item] != item) item = smaller_[item] = smaller_[smaller_[item]];
-    return item;
-  }
-  std::size_t join(std::size_t a, std::size_t b) {
-    const auto [low, high] = std::minmax({of(a), of(b)});
-    return smaller_[high] = low;
-  }
-
- private:
-  std::vector<std::size_t> smaller_;
-};
 
 class LineDrawing {
  public:

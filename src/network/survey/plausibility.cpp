@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/faults.hpp"
 #include "core/format.hpp"
 #include "network/connectivity.hpp"
+#include "network/disjoint_sets.hpp"
 
 namespace rhexis::network {
 namespace {
@@ -64,28 +64,20 @@ class Look {
   /// Vessels that continue each other, where no other one meets them, are a branch, whose pieces may be
   /// short.
   void look_at_branches() {
-    std::vector<std::uint32_t> before(g_.vessels());  // a vessel of the same branch, or the vessel itself
-    std::iota(before.begin(), before.end(), 0U);
-    const auto first_of = [&](std::uint32_t v) {
-      while (before[v] != v) v = before[v] = before[before[v]];
-      return v;
-    };
+    DisjointSets branch(g_.vessels());
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> met(g_.junctions, none);
     for (std::uint32_t v = 0; v < g_.vessels(); ++v) {
       for (const std::uint32_t j : {g_.from[v], g_.to[v]}) {
         if (degree_[j] != 2) continue;
-        if (met[j] != none) {
-          const auto [low, high] = std::minmax({first_of(met[j]), first_of(v)});
-          before[high] = low;
-        }
+        if (met[j] != none) branch.join(met[j], v);
         met[j] = v;
       }
     }
     std::vector<double> length(g_.vessels());
-    for (std::uint32_t v = 0; v < g_.vessels(); ++v) length[first_of(v)] += g_.length[v];
+    for (std::uint32_t v = 0; v < g_.vessels(); ++v) length[branch.of(v)] += g_.length[v];
     for (std::uint32_t v = 0; v < g_.vessels(); ++v) {
-      if (before[v] != v) continue;
+      if (branch.of(v) != v) continue;
       ++branches_;
       if (length[v] < g_.radius[v]) short_.add(v);
     }

@@ -30,7 +30,7 @@
 #include "network/files/vtp/interface.hpp"
 
 extern "C" {
-/// Of expat, since 2.6 and in older ones with their security patches; null in those without.
+/// A function of expat since 2.6, and of older ones with their security patches; null in those without.
 [[gnu::weak]] unsigned char XML_SetReparseDeferralEnabled(void* parser, unsigned char enabled);
 }
 
