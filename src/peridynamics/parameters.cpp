@@ -8,6 +8,8 @@
 
 #include "core/error.hpp"
 #include "core/format.hpp"
+#include "peridynamics/laws/all_laws.hpp"
+#include "peridynamics/laws/correspondence/neo_hookean.hpp"
 #include "peridynamics/laws/strength.hpp"
 #include "peridynamics/loads/schedule.hpp"
 
@@ -15,8 +17,19 @@ namespace rhexis::peridynamics {
 
 namespace {
 
-/// Laws of bonds, which columns of particles run.
-const Condition laws_of_bonds{"material.law", {"\"pmb\"", "\"fung\"", "\"lps\""}};
+/// That material.law is one of bonds, which columns of particles run.
+Condition law_of_bonds() {
+  Condition condition{"material.law"};
+  for_each_law([&]<class Law>() { condition.values.push_back('"' + std::string(Law::name) + '"'); });
+  return condition;
+}
+
+/// That the wall's stiffness is told by one modulus, not layer by layer.
+Condition law_of_one_modulus() {
+  Condition condition = law_of_bonds();
+  condition.values.push_back('"' + std::string(NeoHookean::name) + '"');
+  return condition;
+}
 
 }  // namespace
 
@@ -57,7 +70,7 @@ ParameterList declare(Parameters& p) {
        .meaning = "Young's modulus of the wall.",
        .source = "Table 2, Eq. (4)",
        .range = Range::positive(),
-       .only_with = {{"material.law", {"\"pmb\"", "\"fung\"", "\"lps\"", "\"neo_hookean\""}}}},
+       .only_with = {law_of_one_modulus()}},
       {.key = "material.critical_stretch",
        .target = &p.critical_stretch,
        .unit = "1",
@@ -183,14 +196,14 @@ ParameterList declare(Parameters& p) {
                   "bonds pull that a surface cuts, resultant exactly P 2 pi r0 L), consistent (the same "
                   "everywhere, resultant exact) or paper (P / thickness).",
        .source = "Eq. (8)",
-       .only_with = {laws_of_bonds}},
+       .only_with = {law_of_bonds()}},
       {.key = "load.layer_thickness",
        .target = &p.layer_thickness,
        .unit = "m",
        .meaning = "Thickness of the loaded layer, from r0 outwards; \"auto\" is one horizon.",
        .source = "Eq. (8)",
        .range = Range::positive(),
-       .only_with = {laws_of_bonds}},
+       .only_with = {law_of_bonds()}},
       {.key = "load.venting",
        .target = &p.venting,
        .meaning = "After rupture: none (the load goes on, as in the paper) or orifice "

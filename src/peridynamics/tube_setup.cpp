@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "peridynamics/tube_setup.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include "core/error.hpp"
-#include "core/format.hpp"
+#include <utility>
 
 namespace rhexis::peridynamics {
 
@@ -15,44 +11,39 @@ GradientLaw gradient_law(const Parameters& p) {
   return NeoHookean(p.young_modulus, p.law.poisson_ratio);
 }
 
-GeneralTube make_general_tube(const Parameters& p, const Lattice& lattice, double time_step) {
+GeneralTube make_general_tube(const Parameters& p, const BodySetup& tube) {
   std::vector<std::size_t> order;
   auto setup = std::make_shared<GeneralSetup>();
-  setup->geometry = make_geometry(tube_particles(lattice), *p.horizon, &order);
+  setup->geometry = make_geometry(tube_particles(tube.lattice), *p.horizon, &order);
   setup->law = gradient_law(p);
-  setup->density = p.density;
-  setup->critical_stretch = *p.critical_stretch;
-  setup->time_step = time_step;
-  double volume = 0;
-  for (const double v : setup->geometry->particles.volume) volume += v;
-  setup->energy_scale =
-      std::max(p.young_modulus * *p.critical_stretch * *p.critical_stretch, p.pressure) * volume;
-  setup->double_bonds = p.bond_precision == Precision::double_precision;
+  setup->density = tube.density;
+  setup->critical_stretch = tube.critical_stretch;
+  setup->time_step = tube.time_step;
+  setup->energy_scale = tube.energy_scale;
+  setup->double_bonds = tube.double_bonds;
   setup->follower_load = p.direction == LoadDirection::follower;
-  if (p.ends != EndCondition::free) {
-    const auto held_rows = static_cast<std::int64_t>(std::ceil(*p.end_length / lattice.row_spacing - 1e-9));
-    if (2 * held_rows >= lattice.rows)
-      throw InputError("the held ends (" + quantity(*p.end_length, "m") + ", or " +
-                           std::to_string(held_rows) + " rows, each) leave none of the vessel's " +
-                           std::to_string(lattice.rows) + " rows free",
-                       "boundary.end_length");
-    const std::uint8_t axes = p.ends == EndCondition::clamped ? 7 : 4;
+  if (tube.ends != EndCondition::free) {
     for (const std::size_t number : order) {
-      const auto row = static_cast<std::int64_t>(number) % lattice.rows;
-      setup->held.push_back(row < held_rows || row >= lattice.rows - held_rows ? axes : 0);
+      const std::int64_t row = static_cast<std::int64_t>(number) % tube.lattice.rows;
+      std::uint8_t held = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto [first, past] = free_rows(tube, axis);
+        if (row < first || row >= past) held = static_cast<std::uint8_t>(held | 1U << axis);
+      }
+      setup->held.push_back(held);
     }
   }
   return {std::move(setup), {order.begin(), order.end()}};
 }
 
-GeneralTube make_short_tube(const Parameters& p, Lattice lattice) {
+GeneralTube make_short_tube(const Parameters& p, BodySetup tube) {
   constexpr std::int64_t rows = 16;
-  Parameters short_p = p;
-  short_p.ends = EndCondition::sliding;
-  short_p.end_length = lattice.row_spacing;
-  short_p.bond_precision = Precision::double_precision;
-  lattice.rows = rows;
-  return make_general_tube(short_p, lattice, 1);
+  tube.ends = EndCondition::sliding;
+  tube.end_length = tube.lattice.row_spacing;
+  tube.double_bonds = true;
+  tube.time_step = 1;
+  tube.lattice.rows = rows;
+  return make_general_tube(p, tube);
 }
 
 }  // namespace rhexis::peridynamics

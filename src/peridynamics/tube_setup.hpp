@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "peridynamics/engine/body_setup.hpp"
 #include "peridynamics/engine/general_setup.hpp"
 #include "peridynamics/parameters.hpp"
 
@@ -21,12 +22,11 @@ struct GeneralTube {
 /// The law by gradient of resolved parameters.
 GradientLaw gradient_law(const Parameters& p);
 
-/// The tube of resolved parameters whose particles are those of `lattice`, with a time step of `time_step`
-/// (s). Throws InputError where its held ends leave nothing free.
-GeneralTube make_general_tube(const Parameters& p, const Lattice& lattice, double time_step);
+/// The tube of resolved parameters whose lattice, ends, precision and time step are those of `tube`.
+GeneralTube make_general_tube(const Parameters& p, const BodySetup& tube);
 
 /// The same tube, as short as tells what a long one does, for measures of its discretisation: plane strain
 /// between sliding ends, in double precision.
-GeneralTube make_short_tube(const Parameters& p, Lattice lattice);
+GeneralTube make_short_tube(const Parameters& p, BodySetup tube);
 
 }  // namespace rhexis::peridynamics

@@ -15,9 +15,9 @@ SharedWall make_wall(Parameters resolved, SharedFamilies families) {
   // Families take most of the time, so all that may be refused is made before them.
   BodySetup setup = make_setup(resolved, make_lattice(resolved), nullptr, 0);
   if (resolved.law.by_gradient()) {
-    const TimeSteps time = time_steps(resolved, stable_time_step(resolved, setup.lattice));
+    const TimeSteps time = time_steps(resolved, stable_time_step(resolved, setup));
     setup.time_step = time.step;
-    GeneralTube tube = make_general_tube(resolved, setup.lattice, time.step);
+    GeneralTube tube = make_general_tube(resolved, setup);
     return std::make_shared<const WallModel>(
         WallModel{std::move(resolved), std::move(setup), std::move(tube), time});
   }
@@ -44,16 +44,10 @@ double flop_per_evaluation(const WallModel& wall) {
 }
 
 std::unique_ptr<Body> make_piece(const WallModel& wall, std::int64_t rows, parallel::Communicator comm) {
-  if (wall.by_gradient()) {
-    Lattice lattice = wall.lattice();
-    lattice.rows = rows;
-    Parameters p = wall.parameters;
-    p.ends = EndCondition::free;
-    return make_body(make_general_tube(p, lattice, wall.time.step).setup, comm);
-  }
   BodySetup piece = wall.setup;
   piece.lattice.rows = rows;
   piece.ends = EndCondition::free;
+  if (wall.by_gradient()) return make_body(make_general_tube(wall.parameters, piece).setup, comm);
   return make_body(std::move(piece), comm);
 }
 

@@ -141,8 +141,8 @@ class Body {
     std::array<double, 3> frame{};  ///< m, origin of FollowingFrame
     bool wrapped = false;           ///< FollowingFrame::wrapped
     long frame_phase = 0;           ///< steps since the frame last looked at the body's motion
-    /// Of the general engine: force and displacement of the loaded surface at each particle when forces were
-    /// last evaluated, from which the work of the step since then is found. Empty of columns.
+    /// Force and displacement of the loaded surface at each particle when forces were last evaluated, from
+    /// which the general engine finds the work of the step since then. Columns leave it empty.
     std::array<std::vector<double>, 6> surface = {};
 
     static double bytes(const BodySize& size) {

@@ -20,6 +20,8 @@
 /// the law's unit mu, forces in mu h^2.
 #pragma once
 
+#include <hwy/aligned_allocator.h>
+
 #include "peridynamics/engine/bond_kernel.hpp"
 #include "peridynamics/engine/family_blocks.hpp"
 #include "peridynamics/laws/correspondence/tensor.hpp"

@@ -4,14 +4,13 @@
 /// Lengths are in spacings.
 #pragma once
 
-#include <hwy/aligned_allocator.h>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "peridynamics/engine/block_partition.hpp"
@@ -24,6 +23,15 @@ namespace rhexis::peridynamics {
 /// stress, and that at which it carries none: its gradient would hang on too few bonds, and the stiffness of
 /// those that are left grows with their load.
 inline constexpr double weakening_moment = 0.25, least_moment = 0.05;
+
+/// The difference of two particles' quads, in double precision.
+template <class T>
+Eigen::Vector3d difference(const std::vector<T>& quads, std::size_t from, std::size_t to) {
+  const auto component = [&](std::size_t k) {
+    return static_cast<double>(quads[quad * to + k]) - static_cast<double>(quads[quad * from + k]);
+  };
+  return {component(0), component(1), component(2)};
+}
 
 template <class Real>
 class FamilyBlocks {
@@ -48,19 +56,18 @@ class FamilyBlocks {
   std::size_t slots() const { return first_slot_.back(); }
   std::size_t most_slots() const { return most_slots_; }
 
-  // Of known particles.
+  // Known particles have:
   std::vector<std::int32_t> place;  ///< in steps, quads (engine/quads.hpp)
   std::vector<Real> multiplier;     ///< GradientWeights, quads
   std::vector<Real> volume;         ///< in spacings^3
 
-  // Of bonds, [slots][16].
-  std::vector<std::int32_t>
-      partner;  ///< where the other end's quad begins; a particle's own where it has no such bond
+  // Bonds have, [slots][16]:
+  std::vector<std::int32_t> partner;  ///< where the other end's quad begins; its own where it has no bond
   std::vector<std::int32_t> reverse;  ///< where the other end's T stands among forces, [slots][16][3]
   std::vector<Real> weight;           ///< w_ij V_j
   std::vector<std::uint16_t> words;   ///< [slots] bit k: the bond of particle k exists and is unbroken
 
-  // Of evaluated particles, from the bonds that are left.
+  // Evaluated particles have, from the bonds that are left:
   std::array<std::vector<Real>, 9> slope;  ///< B_i of the gradient, row by row
   std::array<std::vector<Real>, 6> shape;  ///< sum_j w V_j xi (x) xi / |xi|^2: xx, yy, zz, xy, xz, yz
   std::vector<Real> strength;              ///< the share of the stress that a particle carries, 1 to 0
@@ -91,10 +98,7 @@ class FamilyBlocks {
 
   /// xi of a bond, in spacings.
   Eigen::Vector3d bond(std::size_t particle, std::size_t other) const {
-    Eigen::Vector3d xi;
-    for (std::size_t k = 0; k < 3; ++k)
-      xi[static_cast<Eigen::Index>(k)] = place_step * (place[quad * other + k] - place[quad * particle + k]);
-    return xi;
+    return place_step * difference(place, particle, other);
   }
 
   /// Local number of the particle at the other end of a bond.
@@ -102,11 +106,7 @@ class FamilyBlocks {
 
   /// Difference of multipliers over a bond.
   Eigen::Vector3d multiplier_step(std::size_t particle, std::size_t other) const {
-    Eigen::Vector3d step;
-    for (std::size_t k = 0; k < 3; ++k)
-      step[static_cast<Eigen::Index>(k)] =
-          double{multiplier[quad * other + k]} - double{multiplier[quad * particle + k]};
-    return step;
+    return difference(multiplier, particle, other);
   }
 
  private:

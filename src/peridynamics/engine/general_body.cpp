@@ -20,7 +20,7 @@ namespace {
 struct alignas(128) EvaluationEvents {
   explicit EvaluationEvents(double energy_scale) : work(energy_scale), released(energy_scale) {}
   ExactSum work, released;  ///< J
-  std::int64_t broken = 0, evaluations = 0;
+  std::int64_t broken = 0;
   bool damaged = false;
 };
 
@@ -139,11 +139,7 @@ class GeneralBody final : public Body {
   double spacing() const { return setup_->geometry->particles.spacing; }
   /// eta of a bond, in spacings.
   Eigen::Vector3d extension(std::size_t particle, std::size_t other) const {
-    Eigen::Vector3d eta;
-    for (std::size_t k = 0; k < 3; ++k)
-      eta[static_cast<Eigen::Index>(k)] =
-          double{bond_u_[quad * other + k]} - double{bond_u_[quad * particle + k]};
-    return eta;
+    return difference(bond_u_, particle, other);
   }
   bool is_held(std::size_t particle, std::size_t axis) const {
     return !setup_->held.empty() && (setup_->held[first_particle() + particle] >> axis & 1U) != 0;
@@ -205,7 +201,7 @@ class GeneralBody final : public Body {
   double ruptured_low_ = INFINITY, ruptured_high_ = -INFINITY;  ///< m, z
 };
 
-/// Of the evaluated particles, local numbers; null where no particle stands.
+/// Where the evaluated particles are in the wall, by local number; null where no particle stands.
 template <class Law, class Real>
 std::vector<const WallFrame*> GeneralBody<Law, Real>::frames() const {
   std::vector<const WallFrame*> frames(width * partition_.evaluated_blocks(), nullptr);

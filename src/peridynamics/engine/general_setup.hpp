@@ -4,13 +4,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <variant>
 #include <vector>
 
 #include "peridynamics/bonds/gradient.hpp"
 #include "peridynamics/bonds/neighbours.hpp"
-#include "peridynamics/laws/correspondence/fibre_reinforced.hpp"
-#include "peridynamics/laws/correspondence/neo_hookean.hpp"
+#include "peridynamics/laws/correspondence/gradient_laws.hpp"
 
 namespace rhexis::peridynamics {
 
@@ -41,9 +39,6 @@ std::shared_ptr<const GeneralGeometry> make_geometry(const ParticleSet& set, dou
 /// many `neighbours` on average; with what finding the gradients takes.
 double geometry_bytes(double particles, double neighbours);
 double general_body_bytes(double particles, double neighbours, bool double_bonds);
-
-/// A law by gradient.
-using GradientLaw = std::variant<NeoHookean, FibreReinforced>;
 
 struct GeneralSetup {
   std::shared_ptr<const GeneralGeometry> geometry;

@@ -9,8 +9,7 @@
 #include "core/error.hpp"
 #include "core/format.hpp"
 #include "peridynamics/laws/all_laws.hpp"
-#include "peridynamics/laws/correspondence/fibre_reinforced.hpp"
-#include "peridynamics/laws/correspondence/neo_hookean.hpp"
+#include "peridynamics/laws/correspondence/gradient_laws.hpp"
 
 namespace rhexis::peridynamics {
 namespace {
@@ -33,8 +32,7 @@ Parameter law_key(LawChoice& choice) {
     key.source += (key.source.empty() ? "" : "; ") + std::string(Law::source);
   };
   for_each_law(add);
-  add.operator()<NeoHookean>();
-  add.operator()<FibreReinforced>();
+  for_each_gradient_law(add);
   for (std::size_t i = 0; i < meanings.size(); ++i) {
     const bool last = i + 1 == meanings.size();
     key.meaning += (i == 0 ? "" : last ? " or " : ", ") + meanings[i];
@@ -46,7 +44,9 @@ Parameter law_key(LawChoice& choice) {
 }  // namespace
 
 bool LawChoice::by_gradient() const {
-  return name == NeoHookean::name || name == FibreReinforced::name;
+  bool found = false;
+  for_each_gradient_law([&]<class Law>() { found = found || name == Law::name; });
+  return found;
 }
 
 ParameterList declare(LawChoice& choice) {

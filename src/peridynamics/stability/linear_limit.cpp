@@ -128,13 +128,19 @@ double linear_time_step_limit(const BodySetup& setup) {
                           setup.lattice.spacing, setup.density});
 }
 
-double linear_time_step_limit(const Parameters& p, const Lattice& lattice) {
-  return time_step_limit({make_body(make_short_tube(p, lattice).setup, parallel::Communicator::self()),
-                          lattice.spacing, p.density});
+double linear_time_step_limit(const Parameters& p, const BodySetup& tube) {
+  return time_step_limit({make_body(make_short_tube(p, tube).setup, parallel::Communicator::self()),
+                          tube.lattice.spacing, tube.density});
+}
+
+double allowance_for_stretch(const Parameters& p) {
+  const double stiffening =
+      std::visit([&](const auto& law) { return law.stiffening(*p.critical_stretch); }, gradient_law(p));
+  return (1 + *p.critical_stretch) * std::sqrt(stiffening);
 }
 
 double linear_time_step_limit(const WallModel& wall) {
-  return wall.by_gradient() ? linear_time_step_limit(wall.parameters, wall.lattice())
+  return wall.by_gradient() ? wall.time.stable * allowance_for_stretch(wall.parameters)
                             : linear_time_step_limit(wall.setup);
 }
 

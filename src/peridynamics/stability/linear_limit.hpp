@@ -13,7 +13,12 @@ namespace rhexis::peridynamics {
 double linear_time_step_limit(const BodySetup& setup);
 
 /// The same of a law by gradient, of a short piece of the tube.
-double linear_time_step_limit(const Parameters& p, const Lattice& lattice);
+double linear_time_step_limit(const Parameters& p, const BodySetup& tube);
+
+/// By how much the stable step of a law by gradient is less: 1 + s0, since cells that are stretched by s0 are
+/// as much narrower across, times the root of how much fibres stiffen up to s0.
+double allowance_for_stretch(const Parameters& p);
+
 /// The same of a wall of any law.
 double linear_time_step_limit(const WallModel& wall);
 

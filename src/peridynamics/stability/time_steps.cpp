@@ -39,10 +39,8 @@ double stable_time_step(const BodySetup& setup) {
   });
 }
 
-double stable_time_step(const Parameters& p, const Lattice& lattice) {
-  const double stiffening =
-      std::visit([&](const auto& law) { return law.stiffening(*p.critical_stretch); }, gradient_law(p));
-  return linear_time_step_limit(p, lattice) / ((1 + *p.critical_stretch) * std::sqrt(stiffening));
+double stable_time_step(const Parameters& p, const BodySetup& tube) {
+  return linear_time_step_limit(p, tube) / allowance_for_stretch(p);
 }
 
 TimeSteps time_steps(const Parameters& p, double stable) {

@@ -20,9 +20,8 @@ struct TimeSteps {
 double stable_time_step(const BodySetup& setup);
 
 /// The same of a law by gradient: the limit of linear stability of a short piece of the tube, found by
-/// Lanczos' method, over 1 + s0, since cells that are stretched by s0 are as much narrower across, and over
-/// the root of how much fibres stiffen up to s0.
-double stable_time_step(const Parameters& p, const Lattice& lattice);
+/// Lanczos' method, over allowance_for_stretch (linear_limit.hpp).
+double stable_time_step(const Parameters& p, const BodySetup& tube);
 
 /// The user's step, or a share of the stable one that divides the end time evenly. Throws InputError for a
 /// step that is unstable, or for far too many.

@@ -118,6 +118,24 @@ void balance(const CrossSection& s, Eigen::VectorXd& load) {
   load -= modes * (modes.transpose() * modes).ldlt().solve(modes.transpose() * load);
 }
 
+/// Radial displacements against the exact ones.
+class Comparison {
+ public:
+  /// `size`: area or volume that has this displacement.
+  void add(double size, double radial, double exact) {
+    error_ += size * (radial - exact) * (radial - exact);
+    size_ += size * exact * exact;
+    least_ = std::min(least_, radial / exact);
+    most_ = std::max(most_, radial / exact);
+  }
+  ElasticError result() const {
+    return {.relative_l2 = std::sqrt(error_ / size_), .spread = most_ / least_ - 1};
+  }
+
+ private:
+  double error_ = 0, size_ = 0, least_ = INFINITY, most_ = -INFINITY;
+};
+
 }  // namespace
 
 double lame_displacement(const Parameters& p, double pressure, double r) {
@@ -149,18 +167,14 @@ std::optional<ElasticError> elastic_error(const Parameters& p, const BodySetup& 
   if (solver.info() != Eigen::Success) throw RunError("the bonds do not hold the wall together");
   balance(s, u);
 
-  double error = 0, size = 0, least = INFINITY, most = -INFINITY;
+  Comparison comparison;
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double r = std::hypot(s.x[i], s.y[i]);
     const auto row = static_cast<Eigen::Index>(2 * i);
     const double radial = (u[row] * s.x[i] + u[row + 1] * s.y[i]) / r;
-    const double exact = lame_displacement(p, 1, r);
-    error += s.area[i] * (radial - exact) * (radial - exact);
-    size += s.area[i] * exact * exact;
-    least = std::min(least, radial / exact);
-    most = std::max(most, radial / exact);
+    comparison.add(s.area[i], radial, lame_displacement(p, 1, r));
   }
-  return ElasticError{.relative_l2 = std::sqrt(error / size), .spread = most / least - 1};
+  return comparison.result();
 }
 
 std::optional<ElasticError> elastic_error(const WallModel& wall, double most_multiplications) {
@@ -168,12 +182,12 @@ std::optional<ElasticError> elastic_error(const WallModel& wall, double most_mul
   if (!wall.by_gradient()) return elastic_error(p, wall.setup, most_multiplications);
   Parameters matrix = p;  // what Lame's solution is one of
   matrix.law.name = NeoHookean::name;
-  const GeneralTube tube = make_short_tube(matrix, wall.lattice());
+  const GeneralTube tube = make_short_tube(matrix, wall.setup);
   const auto self = parallel::Communicator::self();
   const auto body = make_body(tube.setup, self);
   const ParticleSet& set = tube.setup->geometry->particles;
   const SmallStrain found = find_small_strain(*body, 1e-5 * set.spacing, 1e-5, self);
-  double error = 0, size = 0, least = INFINITY, most = -INFINITY;
+  Comparison comparison;
   for (std::size_t i = 0; i < set.size(); ++i) {
     // In the middle, away from what the ends do.
     const std::int64_t rows = static_cast<std::int64_t>(set.size() / wall.lattice().section.size());
@@ -181,13 +195,9 @@ std::optional<ElasticError> elastic_error(const WallModel& wall, double most_mul
       continue;
     const double x = set.position[0][i], y = set.position[1][i], r = std::hypot(x, y);
     const double radial = (found.displacement[0][i] * x + found.displacement[1][i] * y) / r;
-    const double exact = lame_displacement(p, 1, r);
-    error += set.volume[i] * (radial - exact) * (radial - exact);
-    size += set.volume[i] * exact * exact;
-    least = std::min(least, radial / exact);
-    most = std::max(most, radial / exact);
+    comparison.add(set.volume[i], radial, lame_displacement(p, 1, r));
   }
-  return ElasticError{.relative_l2 = std::sqrt(error / size), .spread = most / least - 1};
+  return comparison.result();
 }
 
 double elastic_error_bytes(const Parameters& p, const WallSize& size) {
